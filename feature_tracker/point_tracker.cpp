@@ -63,7 +63,7 @@ class PointTracker::Implementation {
     if (pair) stereo_.emplace(*pair);
   }
 
-  PointFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0,
+  PointFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_now_then,
                    const OtherViews& others) {
     CheckImage(sample, camera_->parameters(), t_ns_);
     if (stereo_ && !others.second.empty()) stereo_->CheckImage(others.second);
@@ -76,12 +76,12 @@ class PointTracker::Implementation {
       const double dt = ToSeconds(sample.t_ns - *t_ns_);
       if (AreSame(sample.gray, sample_.gray)) {
         Stay(dt);
-        if (last_usable_) last_usable_->Rotate(R_C1_C0);
+        if (last_usable_) last_usable_->Rotate(R_now_then);
       } else {
-        FollowOrFindAgain(pyramid, sample, dt, R_C1_C0);
+        FollowOrFindAgain(pyramid, sample, dt, R_now_then);
       }
     }
-    still_parts_.Add(sample, R_C1_C0, Positions());
+    still_parts_.Add(sample, R_now_then, Positions());
     Spread();
     if (IsRefillDue()) Refill(image);
     CutMissingPatches(sample.gray);
@@ -129,15 +129,15 @@ class PointTracker::Implementation {
 
   // Follows the tracks from the previous image, or also from the last one before a loss.
   void FollowOrFindAgain(const OpticalFlow::Pyramid& pyramid, const ImageSample& sample, double dt,
-                         const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+                         const std::optional<Eigen::Quaterniond>& R_now_then) {
     const std::vector<PointTrack> before = tracks_;
     const double previous_dt = std::exchange(previous_dt_, dt);
-    Follow({pyramid_, previous_dt, dt, R_C1_C0}, pyramid, sample.gray, &tracks_);
+    Follow({pyramid_, previous_dt, dt, R_now_then}, pyramid, sample.gray, &tracks_);
     if (last_usable_) {
-      last_usable_->Rotate(R_C1_C0);
+      last_usable_->Rotate(R_now_then);
       FindAgain(pyramid, sample);
     } else if (LosesTracks(before.size(), tracks_.size())) {
-      last_usable_ = {sample_, std::move(pyramid_), before, previous_dt, R_C1_C0};
+      last_usable_ = {sample_, std::move(pyramid_), before, previous_dt, R_now_then};
       pyramid_.clear();  // its memory must not be reused
     }
   }
@@ -162,7 +162,7 @@ class PointTracker::Implementation {
     const OpticalFlow::Pyramid& pyramid;
     double previous_dt;  // from the image before this one [s]
     double dt;           // until the image that tracks are followed to [s]
-    const std::optional<Eigen::Quaterniond>& R_C1_C0;
+    const std::optional<Eigen::Quaterniond>& R_now_then;
   };
 
   // Advances the tracks to the image of `pyramid`, and drops lost ones. `gray` is the same image
@@ -175,7 +175,7 @@ class PointTracker::Implementation {
     const auto dt_ratio = static_cast<float>(from.previous_dt > 0 ? from.dt / from.previous_dt : 0);
     for (const PointTrack& track : tracks) {
       points.push_back(track.uv_px);
-      turned.push_back(from.R_C1_C0 ? Turn(track, *from.R_C1_C0) : track.uv_px);
+      turned.push_back(from.R_now_then ? Turn(track, *from.R_now_then) : track.uv_px);
       predicted.push_back(turned.back() + dt_ratio * track.parallax_px);
     }
     const std::vector<FlowResult> flow = flow_.Track(from.pyramid, pyramid, points, predicted);
@@ -186,19 +186,20 @@ class PointTracker::Implementation {
       if (flow[i].status == FlowResult::Status::kInconsistent) ++statistics_.forward_backward;
       if (flow[i].status == FlowResult::Status::kLost) ++statistics_.flow_lost;
       if (flow[i].status != FlowResult::Status::kTracked) continue;
-      const Eigen::Vector2d xy_C0 = tracks[i].xy;
+      const Eigen::Vector2d xy_then = tracks[i].xy;
       const cv::Point2f aligned = Align(gray, flow[i].position, &tracks[i]);
       keep[i] = Advance(aligned, turned[i], from.dt, &tracks[i]);
       if (!keep[i]) {
         ++statistics_.flow_lost;
         continue;
       }
-      pairs.push_back({xy_C0.homogeneous().normalized(), tracks[i].xy.homogeneous().normalized()});
+      pairs.push_back(
+          {xy_then.homogeneous().normalized(), tracks[i].xy.homogeneous().normalized()});
     }
     RemoveTracks(keep, &tracks);
     const double threshold = config_.f_threshold / camera_->FocalLength();
     statistics_.epipolar_outliers =
-        RemoveTracks(FindEpipolarInliers(pairs, from.R_C1_C0, threshold), &tracks);
+        RemoveTracks(FindEpipolarInliers(pairs, from.R_now_then, threshold), &tracks);
   }
 
   // Keeps the tracks in place in a repeated image. Tracking would move them by the errors of
@@ -213,8 +214,8 @@ class PointTracker::Implementation {
   }
 
   // Predicts the track's pixel for a pure rotation; unchanged if it cannot be projected.
-  cv::Point2f Turn(const PointTrack& track, const Eigen::Quaterniond& R_C1_C0) const {
-    const auto pixel = camera_->Project(R_C1_C0 * track.xy.homogeneous());
+  cv::Point2f Turn(const PointTrack& track, const Eigen::Quaterniond& R_now_then) const {
+    const auto pixel = camera_->Project(R_now_then * track.xy.homogeneous());
     return pixel ? ToOpenCv(*pixel) : track.uv_px;
   }
 
@@ -351,9 +352,9 @@ PointTracker::PointTracker(const PointTrackerConfig& config,
 PointTracker::~PointTracker() = default;
 
 PointFrame PointTracker::Track(const ImageSample& image,
-                               const std::optional<Eigen::Quaterniond>& R_C1_C0,
+                               const std::optional<Eigen::Quaterniond>& R_now_then,
                                const OtherViews& others) {
-  return implementation_->Track(image, R_C1_C0, others);
+  return implementation_->Track(image, R_now_then, others);
 }
 
 void PointTracker::Reset() { implementation_->Reset(); }

@@ -40,10 +40,10 @@ class PointTracker {
                const cv::Mat& mask = {}, const std::optional<CameraPair>& pair = {});
   ~PointTracker();
 
-  // `R_C1_C0` rotates the previous camera frame C0 to the current one C1 (from the gyroscope); if
+  // `R_now_then` rotates the previous camera frame to the current one (from the gyroscope); if
   // nullopt, the tracks' own motion predicts. Throws std::invalid_argument if an image has a wrong
   // type or size or the timestamp does not increase; the tracker is then unchanged.
-  PointFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0,
+  PointFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_now_then,
                    const OtherViews& others = {});
 
   void Reset();  // drops all tracks; ids continue

@@ -188,8 +188,8 @@ std::optional<ReadyImage> ImageQueue::Flush() {
   }
   gyro_is_in_time_ = gyro_.Covers(t_ns);
   if (handed_out_ns_ && uses_gyro_) {
-    ready.R_C1_C0 = gyro_.Rotation(*handed_out_ns_, t_ns);
-    if (!ready.R_C1_C0) ++counts_.without_gyro;
+    ready.R_now_then = gyro_.Rotation(*handed_out_ns_, t_ns);
+    if (!ready.R_now_then) ++counts_.without_gyro;
   }
   ready.publish = rate_limiter_.Take(t_ns);
   TakeOthers(&ready);

@@ -28,7 +28,7 @@ struct ReadyImage {
   DepthSample depth;  // without pixels: none
   // Rotates directions from the frame of camera 0 in the previous image to this one's. nullopt if
   // the gyroscope does not cover the interval.
-  std::optional<Eigen::Quaterniond> R_C1_C0;
+  std::optional<Eigen::Quaterniond> R_now_then;
   bool restart = false;  // timestamps jumped back: a new recording begins; drop earlier state
   bool publish = true;   // false: not for the estimator, by the rate `freq`
 };
@@ -48,7 +48,7 @@ struct ImageCounts {
   int64_t restarts = 0;      // permanent backward jumps: new recordings
   int64_t wrong_format = 0;  // not CV_8UC1 or not of the calibrated size
   int64_t gaps = 0;          // intervals of more than a second without images
-  int64_t without_gyro = 0;  // returned without R_C1_C0, since the gyroscope did not cover it
+  int64_t without_gyro = 0;  // returned without R_now_then, since the gyroscope did not cover it
   int64_t too_late = 0;      // dropped after waiting for too long; not in ToDropCounts()
   std::string wrong_format_detail;
   std::vector<OtherImageCounts> others;  // of cameras 1, 2, ...
@@ -60,10 +60,10 @@ DropCounts ToDropCounts(const ImageCounts& counts);
 
 // Input queue of a tracker: checks images and holds each image of camera 0 back briefly until the
 // gyroscope samples reach it. The images of other cameras and of depth are paired with those of
-// camera 0 whose timestamps agree within 2 ms; one that is late or missing delays others at most briefly.
-// The result depends on the input only: queues of different trackers select the same images, so
-// that their features have equal timestamps. Synchronous; add in order of arrival and pop until
-// nullopt, as with MeasurementSync.
+// camera 0 whose timestamps agree within 2 ms; one that is late or missing delays others at most
+// briefly. The result depends on the input only: queues of different trackers select the same
+// images, so that their features have equal timestamps. Synchronous; add in order of arrival and
+// pop until nullopt, as with MeasurementSync.
 class ImageQueue {
  public:
   // While newer images wait, an image that the gyroscope leads by more than `max_wait` [s], or the

@@ -146,8 +146,8 @@ class TrackingStage {
   // Returns the observations of a camera and of the one that is matched against it.
   auto TrackIn(const ReadyImage& next, TrackedCamera* camera) {
     std::optional<Eigen::Quaterniond>& R_now_then = camera->R_now_then;
-    if (next.R_C1_C0 && R_now_then) {
-      *R_now_then = camera->R_C_C0 * *next.R_C1_C0 * camera->R_C_C0.conjugate() * *R_now_then;
+    if (next.R_now_then && R_now_then) {
+      *R_now_then = camera->R_C_C0 * *next.R_now_then * camera->R_C_C0.conjugate() * *R_now_then;
     } else {
       R_now_then.reset();
     }

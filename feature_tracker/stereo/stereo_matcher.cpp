@@ -12,8 +12,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kNearest = 0.3;      // [m]
-constexpr double kInfinity_px = 5.0;  // tolerance beyond infinity, since the mounting may be turned
+constexpr double kNearest = 0.3;  // [m]
+constexpr double kInfinity_px =
+    5.0;  // tolerance beyond infinity, since the extrinsics may be turned
 constexpr double kMaxBand_px = 4.5;
 constexpr double kReturn_px = 1.5;       // largest distance of the backward match from the corner
 constexpr double kBack_px = 16.0;        // range of the backward search around the corner
@@ -25,7 +26,7 @@ constexpr double kMaxDelay = 1e-3;                   // [s]; smaller delays are 
 constexpr double kMinFoundShare = 0.15;
 constexpr double kShareGain = 0.1;  // weight of one image in the mean shares
 constexpr size_t kMinSearches = 8;
-constexpr int64_t kSettlingImages = 3;  // until the estimated mounting and delay have settled
+constexpr int64_t kSettlingImages = 3;  // until the estimated extrinsics and delay have settled
 // Intervals [images] at which tracks without a match are searched for, and matches are confirmed.
 constexpr int kRetryInterval = 4;
 constexpr int kConfirmInterval = 16;
@@ -35,7 +36,7 @@ Eigen::Vector2d PixelOf(const PointTrack& track) { return {track.uv_px.x, track.
 }  // namespace
 
 StereoMatcher::StereoMatcher(const CameraPair& pair)
-    : stated_(pair), pair_(pair), mounting_(pair.T_C1_C(), pair.second().FocalLength()) {}
+    : stated_(pair), pair_(pair), extrinsics_(pair.T_S_C(), pair.second().FocalLength()) {}
 
 void StereoMatcher::CheckImage(const cv::Mat& second) const {
   CheckImageFormat(second, pair_.second().parameters());
@@ -55,8 +56,8 @@ void StereoMatcher::Match(const cv::Mat& first, const cv::Mat& second,
     const auto& place = searches.back().place;
     if (place && !IsBehind(*place)) matches.push_back(place->match);
   }
-  mounting_.Update(matches);
-  pair_ = stated_.With(mounting_.T_C1_C());
+  extrinsics_.Update(matches);
+  pair_ = stated_.With(extrinsics_.T_S_C());
   Judge(&searches);
   unsearched_ = 0;
 }
@@ -74,7 +75,7 @@ void StereoMatcher::Judge(std::vector<Search>* searches) {
   Shares sum;
   for (Search& search : *searches) {
     const bool is_behind = search.place && IsBehind(*search.place);
-    search.is_good = search.place && !is_behind && mounting_.Accepts(search.place->match);
+    search.is_good = search.place && !is_behind && extrinsics_.Accepts(search.place->match);
     sum.found += search.is_good;
     sum.behind += is_behind;
   }
@@ -126,20 +127,20 @@ std::optional<StereoMatcher::Place> StereoMatcher::FindAgain(const Images& image
 
 // Returns the point in the first camera at the time when the second camera exposes.
 Eigen::Vector2d StereoMatcher::WhenSeen(const PointTrack& track) const {
-  return IsLate() ? Eigen::Vector2d(track.xy + mounting_.delay() * track.velocity) : track.xy;
+  return IsLate() ? Eigen::Vector2d(track.xy + extrinsics_.delay() * track.velocity) : track.xy;
 }
 
 Eigen::Vector2d StereoMatcher::InTime(const StereoMatch& match) const {
-  return IsLate() ? mounting_.WithoutDelay(match) : match.xy_C1;
+  return IsLate() ? extrinsics_.WithoutDelay(match) : match.xy_S;
 }
 
-bool StereoMatcher::IsLate() const { return std::abs(mounting_.delay()) > kMaxDelay; }
+bool StereoMatcher::IsLate() const { return std::abs(extrinsics_.delay()) > kMaxDelay; }
 
 // The first images may show less of a fault than there is: their matches are not used then.
 bool StereoMatcher::IsTrusted() const {
   if (searched_ < kSettlingImages && !Finding().empty()) return false;
   return (!shares_ || shares_->found > kMinFoundShare) &&
-         std::abs(mounting_.delay()) < kLargestDelay;
+         std::abs(extrinsics_.delay()) < kLargestDelay;
 }
 
 bool StereoMatcher::IsSwapped() const { return shares_ && shares_->behind > kMinFoundShare; }
@@ -161,11 +162,11 @@ std::string StereoMatcher::Finding() const {
         first, second, TopicKey(first).c_str(), TopicKey(second).c_str(),
         TransformKey(second).c_str());
   }
-  if (std::abs(mounting_.delay()) > kReportedDelay) {
+  if (std::abs(extrinsics_.delay()) > kReportedDelay) {
     return Format("camera %d is %.1f ms late against its timestamps; trigger all cameras together",
-                  second, 1e3 * mounting_.delay());
+                  second, 1e3 * extrinsics_.delay());
   }
-  const double angle = mounting_.rotation().norm();
+  const double angle = extrinsics_.rotation().norm();
   if (angle < kReportedAngle) return "";
   return Format("camera %d is turned by %.2f deg against %s; calibrate it anew", second,
                 angle * 180 / M_PI, TransformKey(second).c_str());
@@ -186,9 +187,9 @@ std::optional<StereoMatcher::Place> StereoMatcher::Align(const Images& images,
     if (patch) pose = patch->Align(images.second, {*warp, seed.pixel});
   }
   if (!pose) return std::nullopt;
-  const auto xy_C1 = RayOf(pair_.second(), pose->center);
-  if (!xy_C1) return std::nullopt;
-  const StereoMatch match{track.xy, track.velocity, *xy_C1};
+  const auto xy_S = RayOf(pair_.second(), pose->center);
+  if (!xy_S) return std::nullopt;
+  const StereoMatch match{track.xy, track.velocity, *xy_S};
   return Place{match, pose->center, pair_.InverseDepth(track.xy, InTime(match))};
 }
 
@@ -199,9 +200,9 @@ bool StereoMatcher::IsBehind(const Place& place) const {
 double StereoMatcher::Band(const PointTrack& track) const {
   double deviation_px = 0;
   for (const double inverse_depth : {0.0, 1 / kNearest}) {
-    const auto xy_C1 = pair_.Transfer(WhenSeen(track), inverse_depth);
-    if (!xy_C1) return kMaxBand_px;
-    deviation_px = std::max(deviation_px, mounting_.Deviation({track.xy, track.velocity, *xy_C1}));
+    const auto xy_S = pair_.Transfer(WhenSeen(track), inverse_depth);
+    if (!xy_S) return kMaxBand_px;
+    deviation_px = std::max(deviation_px, extrinsics_.Deviation({track.xy, track.velocity, *xy_S}));
   }
   return std::min(2 * deviation_px, kMaxBand_px);
 }

@@ -11,8 +11,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kNearest = 0.3;      // [m]
-constexpr double kInfinity_px = 5.0;  // tolerance beyond infinity, since the mounting may be turned
+constexpr double kNearest = 0.3;  // [m]
+constexpr double kInfinity_px =
+    5.0;  // tolerance beyond infinity, since the extrinsics may be turned
 constexpr double kAgreement_px = 2.0;
 constexpr size_t kMinAgreeing = 4;
 constexpr std::array<double, 5> kShares = {0.1, 0.3, 0.5, 0.7, 0.9};
@@ -25,7 +26,7 @@ constexpr double kMinCrossing = 0.25;  // sine of the angle between line and epi
 constexpr double kMinFirstCrossing = 0.5 * kMinCrossing;
 constexpr int kSearch_px = 3;  // across the predicted line
 // Standard deviations of an edge, and of the shift of the image across the epipolar curves due to
-// errors of lens and mounting.
+// errors of lens and extrinsics.
 constexpr double kEdge_px = 0.3;
 constexpr double kEpipolar_px = 0.5;
 
@@ -40,7 +41,7 @@ double Crossing(const LineSegment& segment, const Eigen::Vector3d& baseline) {
 
 LineStereo::LineStereo(const LineTrackerConfig& config, const CameraPair& pair)
     : pair_(pair),
-      p_C_C1_(pair.T_C1_C().Inverse().translation),
+      p_C_S_(pair.T_S_C().Inverse().translation),
       refinement_(config, pair.second_camera()) {}
 
 void LineStereo::CheckImage(const cv::Mat& second) const {
@@ -78,19 +79,19 @@ bool LineStereo::IsTurn(const LineTrack& track, int interval) const {
   return (track.id + searched_) % interval == 0;
 }
 
-// Intersects the rays R x + rho t of the ends with the plane through the line and camera C1.
+// Intersects the rays R x + rho t of the ends with the plane through the line and camera S.
 Eigen::Vector2d LineStereo::DepthsBy(const LineSegment& second, const LineSegment& segment) const {
   const Eigen::Vector3d normal = second.start.homogeneous().cross(second.end.homogeneous());
-  const double slope = normal.dot(pair_.T_C1_C().translation);
+  const double slope = normal.dot(pair_.T_S_C().translation);
   const auto inverse_depth = [&](const Eigen::Vector2d& xy) {
-    return -normal.dot(pair_.T_C1_C().rotation * xy.homogeneous()) / slope;
+    return -normal.dot(pair_.T_S_C().rotation * xy.homogeneous()) / slope;
   };
   return {inverse_depth(segment.start), inverse_depth(segment.end)};
 }
 
 std::optional<Eigen::Vector2d> LineStereo::FindDepths(const Images& images,
                                                       const LineSegment& segment) const {
-  if (Crossing(segment, p_C_C1_) < kMinFirstCrossing) return std::nullopt;
+  if (Crossing(segment, p_C_S_) < kMinFirstCrossing) return std::nullopt;
   std::vector<LineDepth> samples;
   for (size_t i = 0; i < kShares.size(); ++i) {
     const auto inverse_depth = DepthAt(images, segment, kShares[i]);
@@ -147,7 +148,7 @@ std::optional<SecondSegment> LineStereo::Locate(const cv::Mat& second, const Lin
   const auto end = pair_.Transfer(segment.end, inverse_depths[1]);
   if (!start || !end) return std::nullopt;
   const LineSegment predicted{*start, *end};
-  const double crossing = Crossing(predicted, pair_.T_C1_C().translation);
+  const double crossing = Crossing(predicted, pair_.T_S_C().translation);
   if (!(crossing > kMinCrossing)) return std::nullopt;
   const auto found = refinement_.Refine(second, predicted, kSearch_px);
   if (!found) return std::nullopt;

@@ -53,7 +53,7 @@ class LineStereo {
                                       const Eigen::Vector2d& inverse_depths) const;
 
   CameraPair pair_;
-  Eigen::Vector3d p_C_C1_;  // position of the second camera
+  Eigen::Vector3d p_C_S_;  // position of the second camera
   LineRefinement refinement_;
   int64_t searched_ = 0;  // images
   int unsearched_ = 0;    // images of the first camera since then

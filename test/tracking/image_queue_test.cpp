@@ -62,12 +62,12 @@ TEST_F(ImageQueueTest, AnImageWaitsForTheGyro) {
   AddImu(-10, 40);
   AddImage(0);
   EXPECT_EQ(Pop(), (std::vector<int>{0}));
-  EXPECT_FALSE(last_.R_C1_C0) << "there is no image before";
+  EXPECT_FALSE(last_.R_now_then) << "there is no image before";
   AddImage(50);
   EXPECT_TRUE(Pop().empty());
   AddImu(45, 50);
   EXPECT_EQ(Pop(), (std::vector<int>{50}));
-  EXPECT_TRUE(last_.R_C1_C0);
+  EXPECT_TRUE(last_.R_now_then);
   EXPECT_EQ(queue_.counts().without_gyro, 0);
 }
 
@@ -76,7 +76,7 @@ TEST_F(ImageQueueTest, GivesTheRotationSinceThePreviousImage) {
   AddImage(0);
   AddImage(50);
   EXPECT_EQ(Pop().size(), 2u);
-  const Eigen::Vector3d turn = SO3Log(*last_.R_C1_C0);
+  const Eigen::Vector3d turn = SO3Log(*last_.R_now_then);
   EXPECT_NEAR(turn.z(), -0.05, 1e-9) << "the image turns against the camera";
   EXPECT_NEAR(turn.norm(), 0.05, 1e-9);
 }
@@ -166,7 +166,7 @@ TEST_F(ImageQueueTest, RestartsWithTheRecording) {
   AddImage(550);
   EXPECT_EQ(Pop(), (std::vector<int>{550}));
   EXPECT_FALSE(last_.restart);
-  EXPECT_TRUE(last_.R_C1_C0);
+  EXPECT_TRUE(last_.R_now_then);
 }
 
 TEST_F(ImageQueueTest, DropsImagesOfAnotherSizeAndReportsTheSize) {
@@ -202,10 +202,10 @@ TEST_F(ImageQueueTest, AnImuSampleAloneInTheFutureLeavesTheGyroAtWork) {
   AddImage(0);
   AddImage(50);
   EXPECT_EQ(Pop().size(), 2u);
-  EXPECT_TRUE(last_.R_C1_C0);
+  EXPECT_TRUE(last_.R_now_then);
   AddImage(100);
   EXPECT_EQ(Pop().size(), 1u);
-  EXPECT_TRUE(last_.R_C1_C0);
+  EXPECT_TRUE(last_.R_now_then);
 }
 
 TEST(ImageQueue, MarksImagesAtTheRateAndDeliversAll) {
@@ -231,7 +231,7 @@ TEST(ImageQueue, IgnoresTheGyroIfTheCameraRotationIsUnknown) {
     queue.AddImage(0, {kStart + t * kMillisecond, StillPicture()});
     const auto ready = queue.Pop();
     ASSERT_TRUE(ready) << "waits for the gyro";
-    EXPECT_FALSE(ready->R_C1_C0);
+    EXPECT_FALSE(ready->R_now_then);
   }
   EXPECT_EQ(queue.counts().without_gyro, 0);
 }

@@ -46,7 +46,7 @@ class StereoMatcherTest : public testing::Test {
     return static_cast<double>(count) / static_cast<double>(tracks.size());
   }
 
-  // Share of the tracks whose match is less than this far from the truth by this mounting.
+  // Share of the tracks whose match is less than this far from the truth by these extrinsics.
   double ShareOfTrue(const std::vector<PointTrack>& tracks, const Rigid3d& truth,
                      double limit_px) const {
     int good = 0;
@@ -60,42 +60,42 @@ class StereoMatcherTest : public testing::Test {
   CameraPair pair_ = StereoCameras();
   StereoScene scene_;
   cv::Mat left_ = scene_.View(pair_.first());
-  cv::Mat right_ = scene_.View(pair_.second(), StereoMounting());
+  cv::Mat right_ = scene_.View(pair_.second(), StereoExtrinsics());
 };
 
 TEST_F(StereoMatcherTest, FindsPointsOfAPlaneToATenthOfAPixel) {
   StereoMatcher matcher(pair_);
   const std::vector<PointTrack> tracks = Match(right_, &matcher);
   EXPECT_GT(ShareOfFound(tracks), 0.9);
-  EXPECT_GT(ShareOfTrue(tracks, StereoMounting(), 0.1), 0.85);
-  EXPECT_GE(ShareOfTrue(tracks, StereoMounting(), 0.5), ShareOfFound(tracks) - 1e-9);
+  EXPECT_GT(ShareOfTrue(tracks, StereoExtrinsics(), 0.1), 0.85);
+  EXPECT_GE(ShareOfTrue(tracks, StereoExtrinsics(), 0.5), ShareOfFound(tracks) - 1e-9);
 }
 
 TEST_F(StereoMatcherTest, FindsThemInTheNextPair) {
   StereoMatcher matcher(pair_);
   std::vector<PointTrack> tracks = Match(right_, &matcher);
   for (int i = 0; i < 3; ++i) matcher.Match(left_, right_, &tracks);
-  EXPECT_GT(ShareOfTrue(tracks, StereoMounting(), 0.1), 0.85);
+  EXPECT_GT(ShareOfTrue(tracks, StereoExtrinsics(), 0.1), 0.85);
 }
 
 // The first two images only show that it is turned.
-TEST_F(StereoMatcherTest, LearnsTheActualMounting) {
+TEST_F(StereoMatcherTest, LearnsTheActualExtrinsics) {
   const Rigid3d truth = {
-      SO3Exp(Eigen::Vector3d(0.3, 0.2, -0.3) * kDegree) * StereoMounting().rotation,
-      StereoMounting().translation};
+      SO3Exp(Eigen::Vector3d(0.3, 0.2, -0.3) * kDegree) * StereoExtrinsics().rotation,
+      StereoExtrinsics().translation};
   StereoMatcher matcher(pair_);
   const cv::Mat right = scene_.View(pair_.second(), truth);
   std::vector<PointTrack> tracks = Match(right, &matcher);
   EXPECT_EQ(ShareOfFound(tracks), 0);
   for (int i = 0; i < 2; ++i) matcher.Match(left_, right, &tracks);
   EXPECT_GT(ShareOfTrue(tracks, truth, 0.15), 0.8);
-  EXPECT_NEAR(matcher.mounting().rotation().x(), 0.3 * kDegree, 0.03 * kDegree);
+  EXPECT_NEAR(matcher.extrinsics().rotation().x(), 0.3 * kDegree, 0.03 * kDegree);
   EXPECT_NE(matcher.Finding().find("turned by"), std::string::npos) << matcher.Finding();
 }
 
 TEST_F(StereoMatcherTest, DoesNotMatchAnotherScene) {
   StereoMatcher matcher(pair_);
-  const cv::Mat other = StereoScene({0, 0, 0.5}, 9).View(pair_.second(), StereoMounting());
+  const cv::Mat other = StereoScene({0, 0, 0.5}, 9).View(pair_.second(), StereoExtrinsics());
   EXPECT_LT(ShareOfFound(Match(other, &matcher)), 0.03);
 }
 

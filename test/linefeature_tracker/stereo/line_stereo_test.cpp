@@ -12,14 +12,14 @@
 namespace plm_vins {
 namespace {
 
-const Rigid3d kMounting(SO3Exp({0.005, -0.01, 0.01}), Eigen::Vector3d(-0.11, 0.002, 0.001));
+const Rigid3d kExtrinsics(SO3Exp({0.005, -0.01, 0.01}), Eigen::Vector3d(-0.11, 0.002, 0.001));
 
 class LineStereoTest : public testing::Test {
  protected:
   // How points of the plane n . p = 1 move from the first image to the second.
-  static Eigen::Matrix3d Homography(const Rigid3d& T_C1_C) {
+  static Eigen::Matrix3d Homography(const Rigid3d& T_S_C) {
     const Eigen::Vector3d normal(0.1, 0.05, 0.6);
-    return T_C1_C.R() + T_C1_C.translation * normal.transpose();
+    return T_S_C.R() + T_S_C.translation * normal.transpose();
   }
 
   LineFrame Match(const cv::Mat& right) {
@@ -37,7 +37,7 @@ class LineStereoTest : public testing::Test {
 
   // Distance of the end that is farther from where the line is really seen, in its deviations.
   static double Error(const LineObservation& line, const LineObservation& second) {
-    const Eigen::Matrix3d H = Homography(kMounting);
+    const Eigen::Matrix3d H = Homography(kExtrinsics);
     const LineSegment truth{(H * line.start.homogeneous()).hnormalized(),
                             (H * line.end.homogeneous()).hnormalized()};
     const Eigen::Vector2d errors(truth.Distance(second.start), truth.Distance(second.end));
@@ -56,11 +56,11 @@ class LineStereoTest : public testing::Test {
   }
 
   LineScene scene_ = BarScene(DistortedParameters());
-  CameraPair pair_{scene_.camera(), scene_.camera(), kMounting};
+  CameraPair pair_{scene_.camera(), scene_.camera(), kExtrinsics};
 };
 
 TEST_F(LineStereoTest, FindsSteepLinesWhereTheyAre) {
-  const LineFrame frame = Match(scene_.View(Homography(kMounting)));
+  const LineFrame frame = Match(scene_.View(Homography(kExtrinsics)));
   int steep = 0;
   for (const LineObservation& line : frame.lines) {
     if (line.camera == 1) continue;
@@ -75,7 +75,7 @@ TEST_F(LineStereoTest, FindsSteepLinesWhereTheyAre) {
 }
 
 TEST_F(LineStereoTest, DoesNotMatchLinesAlongTheEpipolarCurves) {
-  const LineFrame frame = Match(scene_.View(Homography(kMounting)));
+  const LineFrame frame = Match(scene_.View(Homography(kExtrinsics)));
   for (const LineObservation& line : frame.lines) {
     if (line.camera == 0 && Slope(line) < 0.15) {
       EXPECT_EQ(SecondOf(line, frame), nullptr) << line.id;
@@ -84,7 +84,7 @@ TEST_F(LineStereoTest, DoesNotMatchLinesAlongTheEpipolarCurves) {
 }
 
 TEST_F(LineStereoTest, FlatterLinesHaveLargerDeviations) {
-  const LineFrame frame = Match(scene_.View(Homography(kMounting)));
+  const LineFrame frame = Match(scene_.View(Homography(kExtrinsics)));
   double steepest = 0, flattest = 1, steepest_deviation = 0, flattest_deviation = 0;
   for (const LineObservation& line : frame.lines) {
     const LineObservation* second = line.camera == 0 ? SecondOf(line, frame) : nullptr;
@@ -105,7 +105,7 @@ TEST_F(LineStereoTest, FlatterLinesHaveLargerDeviations) {
 TEST_F(LineStereoTest, FindsThemInTheNextPair) {
   LineTracker tracker(LineTrackerConfig(), scene_.camera(), {}, pair_);
   LineFrame frame;
-  const cv::Mat left = scene_.View(), right = scene_.View(Homography(kMounting));
+  const cv::Mat left = scene_.View(), right = scene_.View(Homography(kExtrinsics));
   int first = 0;
   for (int i = 1; i <= 4; ++i) {
     frame = tracker.Track({i * kFrame_ns, left}, {}, {right, {}});

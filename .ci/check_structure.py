@@ -23,7 +23,6 @@ COMMON_LAYERS = {
     "format.h": "",
     "finding.h": "format.h",
     "measurements.h": "",
-    "image_companions.h": "measurements.h",
     "median.h": "",
     "recent_time.h": "",
     "stopwatch.h": "",
@@ -33,25 +32,22 @@ COMMON_LAYERS = {
     "features": "measurements.h",
     "streams": "format.h measurements.h median.h",
     "io": "format.h measurements.h",
-    "config": "geometry camera imu",
+    "config": "measurements.h geometry camera imu",
 }
 TRACKING_LAYERS = {
-    "image_sampling.h": "",
-    "stereo": "image_sampling.h",
+    "images": "",
+    "stereo": "images",
 }
 POINT_TRACKER_LAYERS = {
     "detection": "",
     "following": "",
-    "point_track.h": "following",
-    "ray_mask.h": "",
-    "stereo": "following point_track.h ray_mask.h",
+    "stereo": "detection following",
 }
 LINE_TRACKER_LAYERS = {
     "segments": "",
     "detection": "segments",
     "following": "segments",
-    "line_track.h": "segments",
-    "stereo": "segments following line_track.h",
+    "stereo": "segments following",
 }
 ESTIMATOR_LAYERS = {
     "state": "",
@@ -232,15 +228,17 @@ def may_include(name, included):
 
 
 def check_circles(root):
-    """Yields pairs of layers that include each other."""
-    includes = {}  # by layer pair: an example
+    """Yields pairs of folders that include each other; a folder and its parent are such a pair."""
+    includes = {}  # by pair of folders: an example
     for path in code_files(root):
         name = path.relative_to(root)
         for included in INCLUDE.findall(path.read_text(encoding="utf-8")):
-            includes.setdefault((layer_of(name), layer_of(included)), f"{name} {included}")
-    for (layer, target), example in sorted(includes.items(), key=str):
-        if layer and target and layer < target and (target, layer) in includes:
-            yield f"{layer} and {target} include each other: {example}; {includes[target, layer]}"
+            if layer_of(name) and layer_of(included):
+                folders = str(name.parent), str(pathlib.PurePath(included).parent)
+                includes.setdefault(folders, f"{name} {included}")
+    for (folder, target), example in sorted(includes.items()):
+        if folder < target and (target, folder) in includes:
+            yield f"{folder} and {target} include each other: {example}; {includes[target, folder]}"
 
 
 def check_ceres(root):

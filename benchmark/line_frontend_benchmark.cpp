@@ -36,7 +36,7 @@ struct Input {
 };
 
 Input ReadInput(const std::string& config_file, const std::string& folder) {
-  return {CameraModel::Create(LoadConfig(config_file).sensor.camera),
+  return {CameraModel::Create(LoadConfig(config_file).sensor.cameras[0].parameters),
           ReadImages(folder, kMaxImages)};
 }
 

@@ -62,7 +62,7 @@ std::vector<Descriptor> Describe(const CameraModel& camera, const Rigid3d& T_W_C
 }
 
 std::vector<Place> LoadPlaces(const Config& config, const std::string& folder) {
-  const auto camera = CameraModel::Create(config.sensor.camera);
+  const auto camera = CameraModel::Create(config.sensor.cameras[0].parameters);
   std::vector<std::filesystem::path> images;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() == ".jpg") images.push_back(entry.path());
@@ -72,7 +72,7 @@ std::vector<Place> LoadPlaces(const Config& config, const std::string& folder) {
   std::vector<Place> places;
   const Stopwatch stopwatch;
   for (const auto& image : images) {
-    auto place = NextPlace(config.sensor.T_B_C, &poses);
+    auto place = NextPlace(config.sensor.cameras[0].T_B_C, &poses);
     if (!place) break;
     const cv::Mat gray = cv::imread(image.string(), cv::IMREAD_GRAYSCALE);
     place->descriptors = Describe(*camera, place->T_W_C, gray);

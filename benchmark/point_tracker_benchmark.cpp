@@ -16,7 +16,7 @@
 #include "feature_tracker/following/optical_flow.h"
 #include "feature_tracker/following/outlier_rejection.h"
 #include "feature_tracker/point_tracker.h"
-#include "tracking/image_mask.h"
+#include "tracking/images/image_mask.h"
 
 namespace plm_vins {
 namespace {
@@ -43,7 +43,8 @@ cv::Mat Equalized(const cv::Mat& image) {
 }
 
 void TrackWhole(benchmark::State& state, const Input& input) {
-  PointTracker tracker(input.config.points, CameraModel::Create(input.config.sensor.camera),
+  PointTracker tracker(input.config.points,
+                       CameraModel::Create(input.config.sensor.cameras[0].parameters),
                        ReadMask(input.config.points.fisheye_mask, input.Image(0).size()));
   size_t i = 0;
   for (auto _ : state) {

@@ -43,7 +43,7 @@ std::vector<FrameMeasurement> Measure(const Config& config, Recording* recording
       trackers.AddImu(event->imu);
       sync.AddImu(event->imu);
     } else if (const auto image = recording->LoadImage()) {
-      trackers.AddImage({event->t_ns, *image});
+      trackers.AddImage(0, {event->t_ns, *image});
     }
     while (auto frame = trackers.Pop()) Take(std::move(*frame), &sync);
     while (auto measurement = sync.Pop()) measurements.push_back(std::move(*measurement));

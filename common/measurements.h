@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
@@ -34,6 +35,13 @@ struct ImageSample {
   std::shared_ptr<const void> owner = {};  // owner of the pixels if `gray` is not; keep both
 };
 
+// Image of the depth along the optical axis, registered to camera 0: its size and lens apply.
+struct DepthSample {
+  int64_t t_ns = 0;
+  cv::Mat depth;  // CV_16UC1 [mm], 0 if unknown, or CV_32FC1 [m]; read only
+  std::shared_ptr<const void> owner = {};  // owner of the pixels if `depth` is not; keep both
+};
+
 // One IMU reading in the body frame B.
 struct ImuSample {
   int64_t t_ns = 0;
@@ -44,57 +52,66 @@ struct ImuSample {
   double accel_doubt = 0;  // [m/s^2]
 };
 
-// Result of the search for a feature in the image of the second camera.
-enum class RightSearch : uint8_t {
-  kNotDue,       // track not searched in this image, or no second camera
-  kNoImage,      // no image with this timestamp, or one that MatchSchedule skips
-  kNotFound,     // no match, or an ambiguous one
-  kOffEpipolar,  // match rejected by the configured extrinsics
-  kFound,
-};
+// Cameras of a rig have the numbers 0, 1, ...
+constexpr int kMaxCameras = 4;
 
-// Observation of a tracked corner in one image.
+// Observation of a corner in one image.
 struct PointObservation {
-  int64_t id = -1;                                     // constant along the track, never reused
+  int64_t id = -1;  // of the corner, never reused; equal ids in two cameras mean the same corner
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();        // normalized, undistorted
   Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();     // raw pixel
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // d(xy)/dt [1/s]; zero when new
-  // Normalized image point in the second camera C1 at the same timestamp, of a ray (x, y, 1) in C1.
-  // Set if `right_search` is kFound.
+  int camera = 0;
+  std::optional<double> depth = {};  // measured, along the camera's optical axis [m]
+  // Set inside the estimator only: `xy` of the observation in camera 1.
   std::optional<Eigen::Vector2d> right = {};
-  RightSearch right_search = RightSearch::kNotDue;
-  std::optional<double> depth = {};  // measured, along the optical axis of C [m]
 };
 
-// All corners of one image, in the order of the tracker. May be empty.
+// All corners that the cameras observe at one time: those of camera 0 come first, then those of
+// camera 1, ..., each in the order of its tracker. A camera observes an id at most once. May be
+// empty.
 struct PointFrame {
   int64_t t_ns = 0;
   std::vector<PointObservation> points;
 };
 
-// Observation of a line segment in the second camera C1. Its endpoints need not correspond to those
-// in the first camera: only the line through them is measured.
+// Set inside the estimator only: observation of a line in camera 1.
 struct RightSegment {
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();  // normalized, undistorted, in C1
-  Eigen::Vector2d end = Eigen::Vector2d::Zero();    // normalized, undistorted, in C1
-  // Standard deviations of start and end across the line (normalized). The closer the line is to
-  // the epipolar direction, the larger they are.
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();
+  Eigen::Vector2d end = Eigen::Vector2d::Zero();
   Eigen::Vector2d deviation = Eigen::Vector2d::Zero();
 };
 
-// Observation of a tracked line segment in one image.
+// Observation of a line segment in one image. The endpoints need not correspond to those in other
+// images: only the line through them is measured.
 struct LineObservation {
-  int64_t id = -1;                                  // constant along the track, never reused
+  int64_t id = -1;  // of the line, never reused; equal ids in two cameras mean the same line
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  // normalized, undistorted
   Eigen::Vector2d end = Eigen::Vector2d::Zero();    // normalized, undistorted
-  std::optional<RightSegment> right = {};           // at the same timestamp, if matched
+  int camera = 0;
+  // Standard deviations of start and end across the line (normalized); zero: the noise of lines.
+  Eigen::Vector2d deviation = Eigen::Vector2d::Zero();
+  std::optional<RightSegment> right = {};
 };
 
-// All line segments of one image. May be empty.
+// All line segments that the cameras observe at one time, in the order of PointFrame. May be empty.
 struct LineFrame {
   int64_t t_ns = 0;
   std::vector<LineObservation> lines;
 };
+
+// Identifies the track of a feature in one camera.
+template <typename Observation>
+int64_t TrackKey(const Observation& observation) {
+  return observation.id * kMaxCameras + observation.camera;
+}
+
+// Brings observations into the order of a frame.
+template <typename Observation>
+void SortByCamera(std::vector<Observation>* observations) {
+  std::stable_sort(observations->begin(), observations->end(),
+                   [](const auto& a, const auto& b) { return a.camera < b.camera; });
+}
 
 // Input of the estimator for one image: its features and the IMU samples up to it.
 //

@@ -11,16 +11,16 @@
 #include "feature_tracker/contrast_equalizer.h"
 #include "feature_tracker/depth_sampling.h"
 #include "feature_tracker/detection/corner_detector.h"
+#include "feature_tracker/detection/ray_mask.h"
 #include "feature_tracker/detection/spacing_grid.h"
 #include "feature_tracker/detection/still_parts.h"
 #include "feature_tracker/following/optical_flow.h"
 #include "feature_tracker/following/outlier_rejection.h"
-#include "feature_tracker/point_track.h"
-#include "feature_tracker/ray_mask.h"
+#include "feature_tracker/following/point_track.h"
 #include "feature_tracker/stereo/stereo_matcher.h"
 #include "feature_tracker/track_drawing.h"
-#include "tracking/image_check.h"
-#include "tracking/image_mask.h"
+#include "tracking/images/image_check.h"
+#include "tracking/images/image_mask.h"
 #include "tracking/last_usable_image.h"
 
 namespace plm_vins {
@@ -63,13 +63,11 @@ class PointTracker::Implementation {
     if (pair) stereo_.emplace(*pair);
   }
 
-  PointFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0,
-                   const ImageCompanions& companions) {
+  PointFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_now_then,
+                   const OtherViews& others) {
     CheckImage(sample, camera_->parameters(), t_ns_);
-    if (stereo_ && !companions.right.gray.empty()) stereo_->CheckRight(companions.right.gray);
-    if (!companions.depth.depth.empty()) {
-      CheckDepthFormat(companions.depth.depth, camera_->parameters());
-    }
+    if (stereo_ && !others.second.empty()) stereo_->CheckImage(others.second);
+    if (!others.depth.empty()) CheckDepthFormat(others.depth, camera_->parameters());
     const cv::Mat& image = Equalize(sample.gray);
     OpticalFlow::Pyramid pyramid = flow_.BuildPyramid(image, std::move(unused_pyramid_));
     statistics_ = {};
@@ -78,16 +76,16 @@ class PointTracker::Implementation {
       const double dt = ToSeconds(sample.t_ns - *t_ns_);
       if (AreSame(sample.gray, sample_.gray)) {
         Stay(dt);
-        if (last_usable_) last_usable_->Rotate(R_C1_C0);
+        if (last_usable_) last_usable_->Rotate(R_now_then);
       } else {
-        FollowOrFindAgain(pyramid, sample, dt, R_C1_C0);
+        FollowOrFindAgain(pyramid, sample, dt, R_now_then);
       }
     }
-    still_parts_.Add(sample, R_C1_C0, Positions());
+    still_parts_.Add(sample, R_now_then, Positions());
     Spread();
     if (IsRefillDue()) Refill(image);
     CutMissingPatches(sample.gray);
-    LookAtCompanions(sample.gray, companions);
+    LookAtOthers(sample.gray, others);
     sample_ = sample;
     unused_pyramid_ = std::exchange(pyramid_, std::move(pyramid));
     t_ns_ = sample.t_ns;
@@ -113,14 +111,14 @@ class PointTracker::Implementation {
   }
 
   const PointTrackerStatistics& statistics() const { return statistics_; }
-  std::string SecondCameraFinding() const { return stereo_ ? stereo_->Finding() : ""; }
+  std::string PairFinding() const { return stereo_ ? stereo_->Finding() : ""; }
   double StillShare() const { return still_parts_.largest_share(); }
   cv::Mat DrawTracks() const { return DrawPointTracks(sample_.gray, tracks_); }
 
  private:
-  void LookAtCompanions(const cv::Mat& gray, const ImageCompanions& companions) {
-    if (stereo_) stereo_->Match(gray, companions.right.gray, &tracks_);
-    for (PointTrack& track : tracks_) track.depth = DepthAt(companions.depth.depth, track.uv_px);
+  void LookAtOthers(const cv::Mat& gray, const OtherViews& others) {
+    if (stereo_) stereo_->Match(gray, others.second, &tracks_);
+    for (PointTrack& track : tracks_) track.depth = DepthAt(others.depth, track.uv_px);
   }
 
   const cv::Mat& Equalize(const cv::Mat& gray) {
@@ -131,15 +129,15 @@ class PointTracker::Implementation {
 
   // Follows the tracks from the previous image, or also from the last one before a loss.
   void FollowOrFindAgain(const OpticalFlow::Pyramid& pyramid, const ImageSample& sample, double dt,
-                         const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+                         const std::optional<Eigen::Quaterniond>& R_now_then) {
     const std::vector<PointTrack> before = tracks_;
     const double previous_dt = std::exchange(previous_dt_, dt);
-    Follow({pyramid_, previous_dt, dt, R_C1_C0}, pyramid, sample.gray, &tracks_);
+    Follow({pyramid_, previous_dt, dt, R_now_then}, pyramid, sample.gray, &tracks_);
     if (last_usable_) {
-      last_usable_->Rotate(R_C1_C0);
+      last_usable_->Rotate(R_now_then);
       FindAgain(pyramid, sample);
     } else if (LosesTracks(before.size(), tracks_.size())) {
-      last_usable_ = {sample_, std::move(pyramid_), before, previous_dt, R_C1_C0};
+      last_usable_ = {sample_, std::move(pyramid_), before, previous_dt, R_now_then};
       pyramid_.clear();  // its memory must not be reused
     }
   }
@@ -164,7 +162,7 @@ class PointTracker::Implementation {
     const OpticalFlow::Pyramid& pyramid;
     double previous_dt;  // from the image before this one [s]
     double dt;           // until the image that tracks are followed to [s]
-    const std::optional<Eigen::Quaterniond>& R_C1_C0;
+    const std::optional<Eigen::Quaterniond>& R_now_then;
   };
 
   // Advances the tracks to the image of `pyramid`, and drops lost ones. `gray` is the same image
@@ -177,7 +175,7 @@ class PointTracker::Implementation {
     const auto dt_ratio = static_cast<float>(from.previous_dt > 0 ? from.dt / from.previous_dt : 0);
     for (const PointTrack& track : tracks) {
       points.push_back(track.uv_px);
-      turned.push_back(from.R_C1_C0 ? Turn(track, *from.R_C1_C0) : track.uv_px);
+      turned.push_back(from.R_now_then ? Turn(track, *from.R_now_then) : track.uv_px);
       predicted.push_back(turned.back() + dt_ratio * track.parallax_px);
     }
     const std::vector<FlowResult> flow = flow_.Track(from.pyramid, pyramid, points, predicted);
@@ -188,19 +186,20 @@ class PointTracker::Implementation {
       if (flow[i].status == FlowResult::Status::kInconsistent) ++statistics_.forward_backward;
       if (flow[i].status == FlowResult::Status::kLost) ++statistics_.flow_lost;
       if (flow[i].status != FlowResult::Status::kTracked) continue;
-      const Eigen::Vector2d xy_C0 = tracks[i].xy;
+      const Eigen::Vector2d xy_then = tracks[i].xy;
       const cv::Point2f aligned = Align(gray, flow[i].position, &tracks[i]);
       keep[i] = Advance(aligned, turned[i], from.dt, &tracks[i]);
       if (!keep[i]) {
         ++statistics_.flow_lost;
         continue;
       }
-      pairs.push_back({xy_C0.homogeneous().normalized(), tracks[i].xy.homogeneous().normalized()});
+      pairs.push_back(
+          {xy_then.homogeneous().normalized(), tracks[i].xy.homogeneous().normalized()});
     }
     RemoveTracks(keep, &tracks);
     const double threshold = config_.f_threshold / camera_->FocalLength();
     statistics_.epipolar_outliers =
-        RemoveTracks(FindEpipolarInliers(pairs, from.R_C1_C0, threshold), &tracks);
+        RemoveTracks(FindEpipolarInliers(pairs, from.R_now_then, threshold), &tracks);
   }
 
   // Keeps the tracks in place in a repeated image. Tracking would move them by the errors of
@@ -215,8 +214,8 @@ class PointTracker::Implementation {
   }
 
   // Predicts the track's pixel for a pure rotation; unchanged if it cannot be projected.
-  cv::Point2f Turn(const PointTrack& track, const Eigen::Quaterniond& R_C1_C0) const {
-    const auto pixel = camera_->Project(R_C1_C0 * track.xy.homogeneous());
+  cv::Point2f Turn(const PointTrack& track, const Eigen::Quaterniond& R_now_then) const {
+    const auto pixel = camera_->Project(R_now_then * track.xy.homogeneous());
     return pixel ? ToOpenCv(*pixel) : track.uv_px;
   }
 
@@ -302,16 +301,21 @@ class PointTracker::Implementation {
     }
   }
 
-  // Omits points with impossibly fast motion, which occur near the image plane of a fisheye.
+  // Omits points with impossibly fast motion, which occur near the image plane of a fisheye. The
+  // motion in the second camera is nearly that in the first one.
   PointFrame MakeFrame() const {
     PointFrame frame;
     frame.t_ns = *t_ns_;
     for (const PointTrack& track : tracks_) {
-      const PointObservation point = {track.id,       track.xy,    ToEigen(track.uv_px),
-                                      track.velocity, track.right, track.right_search,
-                                      track.depth};
+      PointObservation point = {track.id, track.xy, ToEigen(track.uv_px), track.velocity};
+      point.depth = track.depth;
+      if (!IsPossible(point)) continue;
+      frame.points.push_back(point);
+      if (!track.second) continue;
+      point = {track.id, track.second->xy, track.second->uv_px, track.velocity, 1};
       if (IsPossible(point)) frame.points.push_back(point);
     }
+    SortByCamera(&frame.points);
     return frame;
   }
 
@@ -348,9 +352,9 @@ PointTracker::PointTracker(const PointTrackerConfig& config,
 PointTracker::~PointTracker() = default;
 
 PointFrame PointTracker::Track(const ImageSample& image,
-                               const std::optional<Eigen::Quaterniond>& R_C1_C0,
-                               const ImageCompanions& companions) {
-  return implementation_->Track(image, R_C1_C0, companions);
+                               const std::optional<Eigen::Quaterniond>& R_now_then,
+                               const OtherViews& others) {
+  return implementation_->Track(image, R_now_then, others);
 }
 
 void PointTracker::Reset() { implementation_->Reset(); }
@@ -361,9 +365,7 @@ const PointTrackerStatistics& PointTracker::statistics() const {
   return implementation_->statistics();
 }
 
-std::string PointTracker::SecondCameraFinding() const {
-  return implementation_->SecondCameraFinding();
-}
+std::string PointTracker::PairFinding() const { return implementation_->PairFinding(); }
 
 std::string PointTracker::StillPartsFinding() const {
   const double share = implementation_->StillShare();

@@ -9,8 +9,8 @@
 
 #include "common/camera/camera_model.h"
 #include "common/config/config.h"
-#include "common/image_companions.h"
 #include "common/measurements.h"
+#include "tracking/other_views.h"
 #include "tracking/stereo/camera_pair.h"
 
 namespace plm_vins {
@@ -34,16 +34,17 @@ class PointTracker {
   using Statistics = PointTrackerStatistics;
 
   // Corners are restricted to pixels that `mask` (see ReadMask()) allows and that have a ray. With
-  // a `pair`, whose first camera is `camera`, corners are matched in the second camera, too.
+  // a `pair`, whose first camera is `camera`, corners are matched in the second camera, too. In the
+  // frames of the tracker these cameras have the numbers 0 and 1.
   PointTracker(const PointTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
                const cv::Mat& mask = {}, const std::optional<CameraPair>& pair = {});
   ~PointTracker();
 
-  // `R_C1_C0` rotates the previous camera frame C0 to the current one C1 (from the gyroscope); if
+  // `R_now_then` rotates the previous camera frame to the current one (from the gyroscope); if
   // nullopt, the tracks' own motion predicts. Throws std::invalid_argument if an image has a wrong
   // type or size or the timestamp does not increase; the tracker is then unchanged.
-  PointFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0,
-                   const ImageCompanions& companions = {});
+  PointFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_now_then,
+                   const OtherViews& others = {});
 
   void Reset();  // drops all tracks; ids continue
 
@@ -52,8 +53,8 @@ class PointTracker {
 
   const PointTrackerStatistics& statistics() const;
 
-  // Describes what seems to be wrong with the second camera, and what to do; empty if nothing is.
-  std::string SecondCameraFinding() const;
+  // Describes what seems to be wrong with the pair, and what to do; empty if nothing is.
+  std::string PairFinding() const;
 
   // Describes parts of the image that stand still while the camera moves; empty if there are none.
   std::string StillPartsFinding() const;

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "feature_tracker/point_track.h"
+#include "feature_tracker/following/point_track.h"
 
 namespace plm_vins {
 

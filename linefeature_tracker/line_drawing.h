@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "linefeature_tracker/line_track.h"
+#include "linefeature_tracker/segments/line_track.h"
 
 namespace plm_vins {
 

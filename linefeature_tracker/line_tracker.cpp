@@ -16,10 +16,10 @@
 #include "linefeature_tracker/following/line_queue.h"
 #include "linefeature_tracker/following/line_refinement.h"
 #include "linefeature_tracker/line_drawing.h"
-#include "linefeature_tracker/line_track.h"
+#include "linefeature_tracker/segments/line_track.h"
 #include "linefeature_tracker/segments/segment_sampler.h"
 #include "linefeature_tracker/stereo/line_stereo.h"
-#include "tracking/image_check.h"
+#include "tracking/images/image_check.h"
 #include "tracking/last_usable_image.h"
 
 namespace plm_vins {
@@ -32,10 +32,10 @@ constexpr double kRefillBelow = 0.9;     // share of max_lines below which lines
 constexpr int kRefillInterval = 3;       // least number of images between detections
 
 // Predicts the segment for a pure rotation; unchanged if an endpoint would be behind the camera.
-LineSegment Turn(const LineSegment& segment, const std::optional<Eigen::Quaterniond>& R_C1_C0) {
-  if (!R_C1_C0) return segment;
-  const Eigen::Vector3d start = *R_C1_C0 * segment.start.homogeneous();
-  const Eigen::Vector3d end = *R_C1_C0 * segment.end.homogeneous();
+LineSegment Turn(const LineSegment& segment, const std::optional<Eigen::Quaterniond>& R_now_then) {
+  if (!R_now_then) return segment;
+  const Eigen::Vector3d start = *R_now_then * segment.start.homogeneous();
+  const Eigen::Vector3d end = *R_now_then * segment.end.homogeneous();
   if (start.z() <= 0 || end.z() <= 0) return segment;
   return {start.hnormalized(), end.hnormalized()};
 }
@@ -65,10 +65,10 @@ class LineTracker::Implementation {
     if (pair) stereo_.emplace(config, *pair);
   }
 
-  LineFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0,
-                  const cv::Mat& right) {
+  LineFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_now_then,
+                  const cv::Mat& second) {
     CheckImage(sample, camera_->parameters(), t_ns_);
-    if (stereo_ && !right.empty()) stereo_->CheckRight(right);
+    if (stereo_ && !second.empty()) stereo_->CheckImage(second);
     LineFlow::Pyramid pyramid = LineFlow::BuildPyramid(sample.gray);
     statistics_ = {};
     statistics_.previous = static_cast<int>(tracks_.size());
@@ -77,17 +77,17 @@ class LineTracker::Implementation {
     if (images_since_detection_) ++*images_since_detection_;
     const LineTracks before = tracks_;
     const double previous_dt = std::exchange(previous_dt_, dt);
-    Follow(pyramid_, pyramid, dt_ratio, R_C1_C0, &tracks_);
+    Follow(pyramid_, pyramid, dt_ratio, R_now_then, &tracks_);
     if (last_usable_) {
-      last_usable_->Rotate(R_C1_C0);
+      last_usable_->Rotate(R_now_then);
       FindAgain(pyramid, sample.t_ns);
     }
     DropDuplicates();
     if (IsRefillDue()) Refill(sample.gray, FindLines(pyramid));
     if (!last_usable_ && LosesTracks(before.size(), tracks_.size())) {
-      last_usable_ = {sample_, pyramid_, before, previous_dt, R_C1_C0};
+      last_usable_ = {sample_, pyramid_, before, previous_dt, R_now_then};
     }
-    if (stereo_) stereo_->Match(sample.gray, right, &tracks_);
+    if (stereo_) stereo_->Match(sample.gray, second, &tracks_);
     sample_ = sample;
     pyramid_ = std::move(pyramid);
     t_ns_ = sample.t_ns;
@@ -119,10 +119,10 @@ class LineTracker::Implementation {
 
   // Advances the tracks to the image of `pyramid` and drops lost ones.
   void Follow(const LineFlow::Pyramid& from, const LineFlow::Pyramid& pyramid, double dt_ratio,
-              const std::optional<Eigen::Quaterniond>& R_C1_C0, LineTracks* tracks) {
+              const std::optional<Eigen::Quaterniond>& R_now_then, LineTracks* tracks) {
     LineTracks followed;
     for (LineTrack& track : *tracks) {
-      const LineSegment turned = Turn(track.segment, R_C1_C0);
+      const LineSegment turned = Turn(track.segment, R_now_then);
       const LineSegment predicted = Moved(turned, dt_ratio * track.parallax);
       const auto found = FollowOne(from, pyramid, track.segment, predicted);
       if (found && Advance(*found, turned, &track)) followed.push_back(std::move(track));
@@ -247,9 +247,16 @@ class LineTracker::Implementation {
     LineFrame frame;
     frame.t_ns = *t_ns_;
     for (const LineTrack& track : tracks_) {
-      const LineObservation line = {track.id, track.segment.start, track.segment.end, track.right};
-      if (IsPossible(line)) frame.lines.push_back(line);
+      const LineObservation line = {track.id, track.segment.start, track.segment.end};
+      if (!IsPossible(line)) continue;
+      frame.lines.push_back(line);
+      if (!track.second) continue;
+      const auto& [segment, deviation] = *track.second;
+      const LineObservation second = {track.id, segment.start, segment.end, 1,
+                                      Eigen::Vector2d::Constant(deviation)};
+      if (IsPossible(second)) frame.lines.push_back(second);
     }
+    SortByCamera(&frame.lines);
     return frame;
   }
 
@@ -282,9 +289,9 @@ LineTracker::LineTracker(const LineTrackerConfig& config, std::shared_ptr<const 
 LineTracker::~LineTracker() = default;
 
 LineFrame LineTracker::Track(const ImageSample& image,
-                             const std::optional<Eigen::Quaterniond>& R_C1_C0,
-                             const ImageCompanions& companions) {
-  return implementation_->Track(image, R_C1_C0, companions.right.gray);
+                             const std::optional<Eigen::Quaterniond>& R_now_then,
+                             const OtherViews& others) {
+  return implementation_->Track(image, R_now_then, others.second);
 }
 
 void LineTracker::Reset() { implementation_->Reset(); }

@@ -8,8 +8,8 @@
 
 #include "common/camera/camera_model.h"
 #include "common/config/config.h"
-#include "common/image_companions.h"
 #include "common/measurements.h"
+#include "tracking/other_views.h"
 #include "tracking/stereo/camera_pair.h"
 
 namespace plm_vins {
@@ -39,17 +39,18 @@ class LineTracker {
   using Statistics = LineTrackerStatistics;
 
   // Lines are cut off where `mask` (see ReadMask()) excludes pixels. With a `pair`, whose first
-  // camera is `camera`, lines are matched in the second camera, too.
+  // camera is `camera`, lines are matched in the second camera, too. In the frames of the tracker
+  // these cameras have the numbers 0 and 1.
   LineTracker(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
               const cv::Mat& mask = {}, const std::optional<CameraPair>& pair = {});
   ~LineTracker();
 
-  // `R_C1_C0` rotates the previous camera frame C0 to the current one C1 (from the gyroscope); if
+  // `R_now_then` rotates the previous camera frame to the current one (from the gyroscope); if
   // nullopt, the tracks' own motion predicts. Throws std::invalid_argument if an image is not
   // CV_8UC1 of the calibrated size or the timestamp does not increase; the tracker is then
   // unchanged.
-  LineFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0,
-                  const ImageCompanions& companions = {});
+  LineFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_now_then,
+                  const OtherViews& others = {});
 
   void Reset();  // drops all tracks; ids continue
 

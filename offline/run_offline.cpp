@@ -47,11 +47,12 @@ Input Open(const Arguments& arguments, const SensorConfig& sensor) {
   if (!arguments.features.empty()) {
     input.features.emplace(arguments.features);
   } else if (!arguments.asl.empty()) {
-    input.recording =
-        OpenAslFolder(arguments.asl, sensor.second_camera.has_value(), sensor.depth.has_value());
+    input.recording = OpenAslFolder(arguments.asl, static_cast<int>(sensor.cameras.size()),
+                                    sensor.depth.has_value());
   } else {
-    input.recording = OpenBags(arguments.bags, sensor.image_topic, sensor.imu_topic,
-                               sensor.second_camera ? sensor.second_camera->image_topic : "",
+    std::vector<std::string> image_topics;
+    for (const CameraSensor& camera : sensor.cameras) image_topics.push_back(camera.image_topic);
+    input.recording = OpenBags(arguments.bags, image_topics, sensor.imu_topic,
                                sensor.depth ? sensor.depth->topic : "");
   }
   return input;

@@ -5,7 +5,7 @@ namespace plm_vins::simulator {
 
 SensorConfig DefaultSensors() {
   SensorConfig sensors;
-  CameraParameters& camera = sensors.camera;
+  CameraParameters& camera = sensors.cameras[0].parameters;
   camera.width = 752;
   camera.height = 480;
   camera.fx = 458.654;
@@ -17,23 +17,24 @@ SensorConfig DefaultSensors() {
   R_B_C << 0.0148655429818, -0.999880929698, 0.00414029679422,  //
       0.999557249008, 0.0149672133247, 0.025715529948,          //
       -0.0257744366974, 0.00375618835797, 0.999660727178;
-  sensors.T_B_C = {Eigen::Quaterniond(R_B_C).normalized(),
-                   {-0.0216401454975, -0.064676986768, 0.00981073058949}};
+  sensors.cameras[0].T_B_C = {Eigen::Quaterniond(R_B_C).normalized(),
+                              {-0.0216401454975, -0.064676986768, 0.00981073058949}};
   return sensors;
 }
 
 SensorConfig DefaultStereoSensors() {
   SensorConfig sensors = DefaultSensors();
-  SecondCamera& right = sensors.second_camera.emplace();
-  right.camera = sensors.camera;
-  right.camera.fx = 457.587;
-  right.camera.fy = 456.134;
-  right.camera.cx = 379.999;
-  right.camera.cy = 255.238;
+  CameraSensor right = sensors.cameras[0];
+  right.image_topic = "/cam1/image_raw";
+  right.parameters.fx = 457.587;
+  right.parameters.fy = 456.134;
+  right.parameters.cx = 379.999;
+  right.parameters.cy = 255.238;
   const Rigid3d T_C_C1(
       Eigen::Quaterniond(Eigen::AngleAxisd(0.01, Eigen::Vector3d(0.6, 0.64, 0.48))),
       {0.11, -0.0005, 0.0009});
-  right.T_B_C = sensors.T_B_C * T_C_C1;
+  right.T_B_C = right.T_B_C * T_C_C1;
+  sensors.cameras.push_back(right);
   return sensors;
 }
 

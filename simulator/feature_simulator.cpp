@@ -34,7 +34,7 @@ uint64_t StreamSeed(uint64_t seed, Stream stream) { return seed * 64 + stream; }
 
 TrajectoryOptions WithForwardCamera(const FeatureSimulationOptions& options) {
   TrajectoryOptions trajectory = options.trajectory;
-  trajectory.R_V_B = ForwardLookingBody(options.sensors.T_B_C);
+  trajectory.R_V_B = ForwardLookingBody(options.sensors.cameras[0].T_B_C);
   return trajectory;
 }
 
@@ -56,7 +56,7 @@ class FeatureCamera {
   FeatureCamera(const FeatureSimulationOptions& options, FeatureDataset* dataset)
       : options_(options),
         dataset_(dataset),
-        camera_(CameraModel::Create(options.sensors.camera)),
+        camera_(CameraModel::Create(options.sensors.cameras[0].parameters)),
         point_tracks_(options.max_points, options.point_break_probability,
                       StreamSeed(options.seed, kPointTracks)),
         line_tracks_(options.max_lines, options.line_break_probability,
@@ -65,18 +65,19 @@ class FeatureCamera {
         line_random_(StreamSeed(options.seed, kLineNoise)),
         right_random_(StreamSeed(options.seed, kRightNoise)),
         depth_random_(StreamSeed(options.seed, kDepthNoise)) {
-    const auto& second_camera = options.sensors.second_camera;
-    if (second_camera) right_camera_ = CameraModel::Create(second_camera->camera);
+    const std::vector<CameraSensor>& cameras = options.sensors.cameras;
+    if (cameras.size() > 1) right_camera_ = CameraModel::Create(cameras[1].parameters);
   }
 
   // Adds the image with timestamp `t_ns`, exposed `time` seconds after the start.
   void Expose(int64_t t_ns, const Trajectory& trajectory, double time) {
     const double readout = options_.sensors.ReadoutTime();
-    const int height = options_.sensors.camera.height;
+    const int height = options_.sensors.cameras[0].parameters.height;
     T_C_W_.resize(readout > 0 ? height : 1);
     for (size_t row = 0; row < T_C_W_.size(); ++row) {
       const double delay = readout * ReadoutShare(static_cast<double>(row), height);
-      T_C_W_[row] = (trajectory.At(time + delay).T_W_B * options_.sensors.T_B_C).Inverse();
+      T_C_W_[row] =
+          (trajectory.At(time + delay).T_W_B * options_.sensors.cameras[0].T_B_C).Inverse();
     }
     dataset_->points.push_back(ObservePoints(t_ns));
     dataset_->lines.push_back(ObserveLines(t_ns));
@@ -147,13 +148,12 @@ class FeatureCamera {
   void ObserveDepth(const Vector3d& p_C, PointObservation* observation) {
     if (right_camera_) {
       const Rigid3d T_C1_C =
-          options_.sensors.second_camera->T_B_C.Inverse() * options_.sensors.T_B_C;
+          options_.sensors.cameras[1].T_B_C.Inverse() * options_.sensors.cameras[0].T_B_C;
       const auto pixel = ProjectTo(*right_camera_, T_C1_C * p_C);
       if (pixel) {
         observation->right =
             right_camera_->Unproject(Disturb(*pixel, options_.right_outlier_ratio, &right_random_));
       }
-      observation->right_search = observation->right ? RightSearch::kFound : RightSearch::kNotFound;
     }
     const auto& depth = options_.sensors.depth;
     if (depth && p_C.z() < depth->max) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/image_queue.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "common/camera/image_format.h"
 #include "common/format.h"
-#include "tracking/image_check.h"
+#include "tracking/images/image_check.h"
 
 namespace plm_vins {
 namespace {
@@ -25,6 +26,13 @@ std::string Nearest(int64_t t_ns, const std::optional<int64_t>& last_ns) {
 
 }  // namespace
 
+OtherImageCounts::OtherImageCounts(int camera) {
+  const std::string name = "camera" + std::to_string(camera);
+  missing.cause = "images_without_" + name;
+  repeated.cause = name + "_images_repeated";
+  unusable.cause = name + "_images_wrong_format";
+}
+
 DropCounts ToDropCounts(const ImageCounts& counts) {
   DropCounts drops = {{"images_out_of_order", counts.out_of_order, ""},
                       {"images_ahead_of_time", counts.ahead, ""},
@@ -32,11 +40,16 @@ DropCounts ToDropCounts(const ImageCounts& counts) {
                       {"image_gaps", counts.gaps, ""},
                       {"image_restarts", counts.restarts, ""},
                       {"images_without_gyro", counts.without_gyro, ""}};
-  for (const DropCount& companion :
-       {counts.without_right, counts.without_depth, counts.right_repeated, counts.right_unusable,
-        counts.depth_unusable}) {
-    if (companion.count > 0) drops.push_back(companion);
+  const auto add = [&drops](const DropCount& drop) {
+    if (drop.count > 0) drops.push_back(drop);
+  };
+  for (const OtherImageCounts& other : counts.others) {
+    add(other.missing);
+    add(other.repeated);
+    add(other.unusable);
   }
+  add(counts.without_depth);
+  add(counts.depth_unusable);
   return drops;
 }
 
@@ -44,13 +57,29 @@ DropCounts ToDropCounts(const ImageCounts& counts) {
 ImageQueue::ImageQueue(const Config& config, double max_wait)
     : sensor_(config.sensor),
       uses_gyro_(sensor_.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation),
-      gyro_(sensor_.T_B_C, sensor_.td, sensor_.imu),
+      gyro_(sensor_.cameras[0].T_B_C, sensor_.td, sensor_.imu),
       rate_limiter_(config.publish_rate),
+      pairs_(StereoPairs(sensor_)),
+      others_(sensor_.cameras.size() - 1),
       order_(kImageJumps) {
+  for (size_t i = 0; i < others_.size(); ++i) {
+    counts_.others.emplace_back(static_cast<int>(i) + 1);
+  }
   if (std::isfinite(max_wait)) max_wait_ns_ = ToNanoseconds(max_wait);
 }
 
-void ImageQueue::AddImage(ImageSample image) {
+void ImageQueue::AddImage(int camera, ImageSample image) {
+  if (camera == 0) return AddImageOfFirst(std::move(image));
+  if (camera > static_cast<int>(others_.size())) return;
+  try {
+    if (!image.gray.empty()) CheckImageFormat(image.gray, sensor_.cameras[camera].parameters);
+    others_[camera - 1].waiting.Add(std::move(image));
+  } catch (const std::invalid_argument& error) {
+    counts_.others[camera - 1].unusable.Add(error.what());
+  }
+}
+
+void ImageQueue::AddImageOfFirst(ImageSample image) {
   ++counts_.images;
   if (!AcceptFormat(image)) return;
   const StampVerdict verdict = order_.Add(image.t_ns);
@@ -60,13 +89,13 @@ void ImageQueue::AddImage(ImageSample image) {
   counts_.gaps += verdict == StampVerdict::kFollowsGap;
   counts_.restarts += restart;
   if (!StampOrder::IsAccepted(verdict)) return;
-  if (restart) gyro_ = GyroPredictor(sensor_.T_B_C, sensor_.td, sensor_.imu);
+  if (restart) gyro_ = GyroPredictor(sensor_.cameras[0].T_B_C, sensor_.td, sensor_.imu);
   images_.push_back({std::move(image), restart});
 }
 
 bool ImageQueue::AcceptFormat(const ImageSample& image) {
   try {
-    CheckImageFormat(image.gray, sensor_.camera);
+    CheckImageFormat(image.gray, sensor_.cameras[0].parameters);
     return true;
   } catch (const std::invalid_argument& error) {
     if (counts_.wrong_format++ == 0) counts_.wrong_format_detail = error.what();
@@ -74,20 +103,10 @@ bool ImageQueue::AcceptFormat(const ImageSample& image) {
   }
 }
 
-void ImageQueue::AddRight(ImageSample image) {
-  if (!sensor_.second_camera) return;
-  try {
-    if (!image.gray.empty()) CheckImageFormat(image.gray, sensor_.second_camera->camera);
-    right_.Add(std::move(image));
-  } catch (const std::invalid_argument& error) {
-    counts_.right_unusable.Add(error.what());
-  }
-}
-
 void ImageQueue::AddDepth(DepthSample image) {
   if (!sensor_.depth) return;
   try {
-    CheckDepthFormat(image.depth, sensor_.camera);
+    CheckDepthFormat(image.depth, sensor_.cameras[0].parameters);
     depth_.Add(std::move(image));
   } catch (const std::invalid_argument& error) {
     counts_.depth_unusable.Add(error.what());
@@ -95,30 +114,42 @@ void ImageQueue::AddDepth(DepthSample image) {
 }
 
 bool ImageQueue::IsComplete(int64_t t_ns) const {
-  return (!uses_gyro_ || gyro_.Covers(t_ns)) && !right_.IsAwaited(t_ns) && !depth_.IsAwaited(t_ns);
+  const bool awaits = std::any_of(others_.begin(), others_.end(), [t_ns](const auto& other) {
+    return other.waiting.IsAwaited(t_ns);
+  });
+  return (!uses_gyro_ || gyro_.Covers(t_ns)) && !awaits && !depth_.IsAwaited(t_ns);
 }
 
-ImageCompanions ImageQueue::TakeCompanions(int64_t t_ns) {
-  ImageCompanions companions;
-  auto right = right_.Take(t_ns);
+// Matches in images that are not published would not be used.
+void ImageQueue::TakeOthers(ReadyImage* ready) {
+  const int64_t t_ns = ready->images[0].t_ns;
+  for (size_t i = 0; i < others_.size(); ++i) {
+    const int camera = static_cast<int>(i) + 1;
+    auto image = others_[i].waiting.Take(t_ns);
+    if (!image) {
+      counts_.others[i].missing.Add(Nearest(t_ns, others_[i].waiting.last_ns()));
+    } else if (ready->publish || IsTracked(camera, pairs_)) {
+      ready->images[camera] = std::move(*image);
+      DropRepeated(camera, &ready->images);
+    }
+  }
   auto depth = depth_.Take(t_ns);
-  if (sensor_.second_camera && !right) counts_.without_right.Add(Nearest(t_ns, right_.last_ns()));
   if (sensor_.depth && !depth) counts_.without_depth.Add(Nearest(t_ns, depth_.last_ns()));
-  if (right) companions.right = std::move(*right);
-  if (depth) companions.depth = std::move(*depth);
-  return companions;
+  if (depth) ready->depth = std::move(*depth);
 }
 
-// Matches in a repeated image of the second camera contradict the motion of the first camera.
-void ImageQueue::DropRepeated(const ImageSample& image, ImageSample* right) {
-  if (right->gray.empty()) return;
+// Observations in repeated images contradict the motion of camera 0.
+void ImageQueue::DropRepeated(int camera, std::vector<ImageSample>* images) {
+  ImageSample& image = (*images)[camera];
+  if (image.gray.empty()) return;
+  OtherCamera& other = others_[camera - 1];
   const bool is_repeated =
-      AreSame(right->gray, last_right_.gray) && !AreSame(image.gray, last_left_.gray);
-  last_left_ = image;
-  last_right_ = *right;
+      AreSame(image.gray, other.last.gray) && !AreSame((*images)[0].gray, other.last_of_first.gray);
+  other.last_of_first = (*images)[0];
+  other.last = image;
   if (!is_repeated) return;
-  counts_.right_repeated.Add("the second camera is frozen while the first one moves");
-  *right = {};
+  counts_.others[camera - 1].repeated.Add("the camera is frozen while camera 0 moves");
+  image = {};
 }
 
 void ImageQueue::DropTooLate() {
@@ -146,23 +177,23 @@ std::optional<ReadyImage> ImageQueue::Pop() {
 std::optional<ReadyImage> ImageQueue::Flush() {
   if (images_.empty()) return std::nullopt;
   ReadyImage ready;
-  ready.image = std::move(images_.front().image);
+  ready.images.resize(sensor_.cameras.size());
+  ready.images[0] = std::move(images_.front().image);
+  const int64_t t_ns = ready.images[0].t_ns;
   ready.restart = images_.front().restart;
   images_.pop_front();
   if (ready.restart) {
     rate_limiter_.Reset();
     handed_out_ns_.reset();
   }
-  gyro_is_in_time_ = gyro_.Covers(ready.image.t_ns);
+  gyro_is_in_time_ = gyro_.Covers(t_ns);
   if (handed_out_ns_ && uses_gyro_) {
-    ready.R_C1_C0 = gyro_.Rotation(*handed_out_ns_, ready.image.t_ns);
-    if (!ready.R_C1_C0) ++counts_.without_gyro;
+    ready.R_now_then = gyro_.Rotation(*handed_out_ns_, t_ns);
+    if (!ready.R_now_then) ++counts_.without_gyro;
   }
-  ready.companions = TakeCompanions(ready.image.t_ns);
-  ready.publish = rate_limiter_.Take(ready.image.t_ns);
-  if (!ready.publish) ready.companions.right = {};  // matches would not be used
-  DropRepeated(ready.image, &ready.companions.right);
-  handed_out_ns_ = ready.image.t_ns;
+  ready.publish = rate_limiter_.Take(t_ns);
+  TakeOthers(&ready);
+  handed_out_ns_ = t_ns;
   return ready;
 }
 

@@ -7,31 +7,40 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/config/config.h"
-#include "common/image_companions.h"
+#include "common/config/stereo_pairs.h"
 #include "common/imu/imu_bursts.h"
 #include "common/measurements.h"
 #include "common/streams/drop_counts.h"
 #include "common/streams/stamp_order.h"
-#include "tracking/companion_queue.h"
 #include "tracking/gyro_predictor.h"
+#include "tracking/pairing_queue.h"
 #include "tracking/rate_limiter.h"
 
 namespace plm_vins {
 
 // The next image to be tracked, with its prediction and flags.
 struct ReadyImage {
-  ImageSample image;
-  // Rotates directions from the camera frame of the previous image to this one's. nullopt if the
-  // gyroscope does not cover the interval.
-  std::optional<Eigen::Quaterniond> R_C1_C0;
-  ImageCompanions companions;  // images of other sensors with the same timestamp
-  bool restart = false;        // timestamps jumped back: a new recording begins; drop earlier state
-  bool publish = true;         // false: not for the estimator, by the rate `freq`
+  // By camera. An image that is missing, or that need not be searched, has no pixels.
+  std::vector<ImageSample> images;
+  DepthSample depth;  // without pixels: none
+  // Rotates directions from the frame of camera 0 in the previous image to this one's. nullopt if
+  // the gyroscope does not cover the interval.
+  std::optional<Eigen::Quaterniond> R_now_then;
+  bool restart = false;  // timestamps jumped back: a new recording begins; drop earlier state
+  bool publish = true;   // false: not for the estimator, by the rate `freq`
 };
 
-// Counts of received images and their faults since construction.
+// Faults of the images of a camera other than 0.
+struct OtherImageCounts {
+  explicit OtherImageCounts(int camera);
+
+  DropCount missing, repeated, unusable;
+};
+
+// Counts of received images of camera 0 and their faults since construction.
 struct ImageCounts {
   int64_t images = 0;
   int64_t out_of_order = 0;  // timestamp repeated or earlier than the previous one
@@ -39,21 +48,20 @@ struct ImageCounts {
   int64_t restarts = 0;      // permanent backward jumps: new recordings
   int64_t wrong_format = 0;  // not CV_8UC1 or not of the calibrated size
   int64_t gaps = 0;          // intervals of more than a second without images
-  int64_t without_gyro = 0;  // returned without R_C1_C0, since the gyroscope did not cover it
+  int64_t without_gyro = 0;  // returned without R_now_then, since the gyroscope did not cover it
   int64_t too_late = 0;      // dropped after waiting for too long; not in ToDropCounts()
   std::string wrong_format_detail;
-  // If there is a second camera or a depth sensor.
-  DropCount without_right{"images_without_second_camera", 0, ""};
+  std::vector<OtherImageCounts> others;  // of cameras 1, 2, ...
   DropCount without_depth{"images_without_depth", 0, ""};
-  DropCount right_repeated{"second_images_repeated", 0, ""};
-  DropCount right_unusable{"second_images_wrong_format", 0, ""};
   DropCount depth_unusable{"depth_images_wrong_format", 0, ""};
 };
 
 DropCounts ToDropCounts(const ImageCounts& counts);
 
-// Input queue of a tracker: checks images and holds each back briefly until the gyroscope samples
-// reach it. The result depends on the input only: queues of different trackers select the same
+// Input queue of a tracker: checks images and holds each image of camera 0 back briefly until the
+// gyroscope samples reach it. The images of other cameras and of depth are paired with those of
+// camera 0 whose timestamps agree within 2 ms; one that is late or missing delays others at most
+// briefly. The result depends on the input only: queues of different trackers select the same
 // images, so that their features have equal timestamps. Synchronous; add in order of arrival and
 // pop until nullopt, as with MeasurementSync.
 class ImageQueue {
@@ -65,19 +73,15 @@ class ImageQueue {
 
   void AddImu(const ImuSample& sample) { gyro_.AddImu(bursts_.Spread(sample)); }
 
-  // Timestamps must increase. An image that goes back in time is dropped, unless enough images
-  // follow it there: then a new recording begins. An image that jumps ahead is dropped, unless the
-  // next one confirms the jump.
-  void AddImage(ImageSample image);
-
-  // These add images of other sensors, which are paired with camera images whose timestamps agree
-  // within 2 ms. They are ignored if the configuration has no such sensor. An image of the second
-  // camera that need not be searched has no pixels.
-  void AddRight(ImageSample image);
+  // Timestamps of a camera must increase. An image that goes back in time is dropped, unless enough
+  // images follow it there: then a new recording begins. An image that jumps ahead is dropped,
+  // unless the next one confirms the jump. An image of another camera than 0 that need not be
+  // searched has no pixels. Ignores cameras and depth that the configuration does not have.
+  void AddImage(int camera, ImageSample image);
   void AddDepth(DepthSample image);
 
   // Returns the next image in temporal order, or nullopt if it still waits. An image waits for the
-  // gyroscope and its companions during half a second of newer images, so that a transport stall
+  // gyroscope and the other images during half a second of newer images, so that a transport stall
   // changes nothing; after the gyroscope missed an image, it waits for two newer images only.
   std::optional<ReadyImage> Pop();
 
@@ -93,12 +97,19 @@ class ImageQueue {
     bool restart = false;
   };
 
+  // A camera other than 0.
+  struct OtherCamera {
+    PairingQueue<ImageSample> waiting;
+    ImageSample last, last_of_first;  // the last pair that was searched, with camera 0
+  };
+
+  void AddImageOfFirst(ImageSample image);
   // Returns false, and counts the image, if it is not CV_8UC1 or not of the calibrated size.
   bool AcceptFormat(const ImageSample& image);
   bool IsComplete(int64_t t_ns) const;
   void DropTooLate();
-  ImageCompanions TakeCompanions(int64_t t_ns);
-  void DropRepeated(const ImageSample& image, ImageSample* right);
+  void TakeOthers(ReadyImage* ready);
+  void DropRepeated(int camera, std::vector<ImageSample>* images);
 
   SensorConfig sensor_;
   std::optional<int64_t> max_wait_ns_;  // nullopt: unlimited
@@ -108,9 +119,9 @@ class ImageQueue {
   RateLimiter rate_limiter_;
   ImageCounts counts_;
   std::deque<WaitingImage> images_;
-  CompanionQueue<ImageSample> right_;
-  CompanionQueue<DepthSample> depth_;
-  ImageSample last_left_, last_right_;    // the last pair that was searched
+  std::vector<StereoPair> pairs_;
+  std::vector<OtherCamera> others_;  // cameras 1, 2, ...
+  PairingQueue<DepthSample> depth_;
   std::optional<int64_t> handed_out_ns_;  // timestamp of the last image that was returned
   bool gyro_is_in_time_ = false;          // samples reached the last image that was returned
   StampOrder order_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/append.h"
 #include "common/format.h"
 #include "common/recent_time.h"
 #include "common/streams/stream_rhythm.h"
@@ -65,6 +66,7 @@ struct EstimationStage::PerWorld {
 EstimationStage::EstimationStage(const Config& config, double max_wait)
     : config_(config),
       estimator_(std::make_unique<Estimator>(config)),
+      door_(config.sensor),
       input_check_(config.sensor),
       sync_(MakeSyncOptions(config, max_wait)),
       world_(std::make_unique<PerWorld>(config)) {}
@@ -80,6 +82,7 @@ void EstimationStage::AddImu(const ImuSample& sample) {
 }
 
 void EstimationStage::AddPoints(PointFrame frame) {
+  door_.Admit(&frame);
   const int64_t t_ns = frame.t_ns;
   input_check_.AddImage(t_ns);
   Follow(sync_.AddPoints(std::move(frame)));
@@ -87,29 +90,37 @@ void EstimationStage::AddPoints(PointFrame frame) {
   CheckInput(t_ns);
 }
 
+void EstimationStage::AddLines(LineFrame frame) {
+  door_.Admit(&frame);
+  sync_.AddLines(std::move(frame));
+}
+
 DropCounts EstimationStage::Drops() const {
   const SyncStatistics statistics = sync_.statistics();
-  return {{"imu_not_finite", statistics.imu_not_finite, ""},
-          {"imu_implausible", statistics.imu_implausible, ""},
-          {"imu_replaced", statistics.imu_replaced, ""},
-          {"imu_saturated", statistics.imu_saturated, ""},
-          {"imu_out_of_order", statistics.imu_out_of_order, ""},
-          {"imu_gaps", statistics.imu_gaps, statistics.first_imu_gap},
-          {"imu_dropped_full", statistics.imu_dropped_full, ""},
-          {"frames_out_of_order", statistics.frames_out_of_order, ""},
-          {"frames_ahead_of_time", statistics.frames_ahead_of_time, ""},
-          {"frames_too_late", statistics.frames_too_late,
-           Format("at most %.2f s older than the newest IMU sample", statistics.longest_wait)},
-          {"frames_without_imu", statistics.frames_without_imu, ""},
-          {"frames_in_imu_gap", statistics.frames_in_imu_gap, ""},
-          {"frames_too_close", statistics.frames_too_close, ""},
-          {"frames_dropped_full", statistics.frames_dropped_full, ""},
-          {"frames_with_few_points", statistics.frames_with_few_points, ""},
-          {"frames_repeated", frames_repeated_, ""},
-          {"lines_out_of_order", statistics.lines_out_of_order, ""},
-          {"lines_late", statistics.lines_late, ""},
-          {"jumps_back", statistics.jumps_back, ""},
-          {"leaps_ahead", statistics.leaps_ahead, ""}};
+  DropCounts drops = {
+      {"imu_not_finite", statistics.imu_not_finite, ""},
+      {"imu_implausible", statistics.imu_implausible, ""},
+      {"imu_replaced", statistics.imu_replaced, ""},
+      {"imu_saturated", statistics.imu_saturated, ""},
+      {"imu_out_of_order", statistics.imu_out_of_order, ""},
+      {"imu_gaps", statistics.imu_gaps, statistics.first_imu_gap},
+      {"imu_dropped_full", statistics.imu_dropped_full, ""},
+      {"frames_out_of_order", statistics.frames_out_of_order, ""},
+      {"frames_ahead_of_time", statistics.frames_ahead_of_time, ""},
+      {"frames_too_late", statistics.frames_too_late,
+       Format("at most %.2f s older than the newest IMU sample", statistics.longest_wait)},
+      {"frames_without_imu", statistics.frames_without_imu, ""},
+      {"frames_in_imu_gap", statistics.frames_in_imu_gap, ""},
+      {"frames_too_close", statistics.frames_too_close, ""},
+      {"frames_dropped_full", statistics.frames_dropped_full, ""},
+      {"frames_with_few_points", statistics.frames_with_few_points, ""},
+      {"frames_repeated", frames_repeated_, ""},
+      {"lines_out_of_order", statistics.lines_out_of_order, ""},
+      {"lines_late", statistics.lines_late, ""},
+      {"jumps_back", statistics.jumps_back, ""},
+      {"leaps_ahead", statistics.leaps_ahead, ""}};
+  Append(door_.Drops(), &drops);
+  return drops;
 }
 
 std::string EstimationStage::ImuContradiction() const {

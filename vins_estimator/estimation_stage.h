@@ -14,6 +14,7 @@
 #include "common/finding.h"
 #include "common/measurements.h"
 #include "common/streams/drop_counts.h"
+#include "vins_estimator/input/feature_door.h"
 #include "vins_estimator/input/input_check.h"
 #include "vins_estimator/input/measurement_sync.h"
 #include "vins_estimator/state/estimator_output.h"
@@ -47,7 +48,7 @@ class EstimationStage {
 
   void AddImu(const ImuSample& sample);
   void AddPoints(PointFrame frame);
-  void AddLines(LineFrame frame) { sync_.AddLines(std::move(frame)); }
+  void AddLines(LineFrame frame);
 
   // Returns the estimate of the next image; nullopt if none is ready.
   std::optional<EstimatedFrame> Pop() { return Process(sync_.Pop()); }
@@ -100,6 +101,7 @@ class EstimationStage {
 
   const Config config_;
   const std::unique_ptr<Estimator> estimator_;  // hides the solver from users of this header
+  FeatureDoor door_;
   InputCheck input_check_;
   MeasurementSync sync_;
   std::unique_ptr<PerWorld> world_;

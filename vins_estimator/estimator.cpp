@@ -24,11 +24,14 @@ Estimator::PerWorld::PerWorld(const Config& config, const EstimatorOptions& opti
       standstill_detector(config.sensor.imu_noise),
       odometry(config, options),
       bridge(config.sensor.imu_noise, odometry.window().gravity_W) {
-  if (config.sensor.rolling_shutter) rolling_shutter.emplace(config.sensor.camera);
+  if (config.sensor.rolling_shutter) rolling_shutter.emplace(config.sensor.cameras[0].parameters);
 }
 
 Estimator::Estimator(const Config& config)
-    : config_(config), options_(config_), world_(config_, options_), lens_(config_.sensor.camera) {}
+    : config_(config),
+      options_(config_),
+      world_(config_, options_),
+      lens_(config_.sensor.cameras[0].parameters) {}
 
 void Estimator::Reset() { world_ = PerWorld(config_, options_); }
 
@@ -55,10 +58,10 @@ FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
                                                   config_.sensor.ReadoutTime());
   }
   if (options_.problem.estimate_intrinsics) {
-    const CameraParameters& camera = config_.sensor.camera;
+    const CameraParameters& camera = config_.sensor.cameras[0].parameters;
     Recalibration(camera, camera.With(window.ray_intrinsics)).Move(&measurement);
-    if (config_.sensor.second_camera) {
-      const CameraParameters& right = config_.sensor.second_camera->camera;
+    if (config_.sensor.cameras.size() > 1) {
+      const CameraParameters& right = config_.sensor.cameras[1].parameters;
       Recalibration(right, right.With(window.right_ray_intrinsics)).MoveRight(&measurement);
     }
   }

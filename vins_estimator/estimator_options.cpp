@@ -32,7 +32,8 @@ constexpr double kUnknownCameraPosition = 0.1;  // [m]
 }  // namespace
 
 EstimatorOptions::EstimatorOptions(const Config& config)
-    : EstimatorOptions(config, CameraModel::Create(config.sensor.camera)->FocalLength()) {}
+    : EstimatorOptions(config,
+                       CameraModel::Create(config.sensor.cameras[0].parameters)->FocalLength()) {}
 
 EstimatorOptions::EstimatorOptions(const Config& config, double focal_length)
     : focal_length(focal_length),

@@ -52,7 +52,7 @@ EstimatorOutput WindowOdometry::Start(const InitializationResult& result,
   Fill(result, uncertainty);
   const Step step = SolveFirstWindow();
   started_ = true;
-  const bool has_depth = config_->sensor.second_camera || config_->sensor.depth;
+  const bool has_depth = config_->sensor.cameras.size() > 1 || config_->sensor.depth;
   depth_evidence_.Begin(window().newest().state.position(), has_depth || !result.from_standstill);
   return Describe(step);
 }
@@ -277,8 +277,8 @@ WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& option
       SolveBy(config_->estimator.solver, options, builder.problem(), &equations).solved;
   solution.covariance = StateCovariance(map.window.newest().state.t_ns, &equations);
   keyframe_.covariance = StateCovariance(keyframe_.t_ns, &equations);
-  if (const auto& second = config_->sensor.second_camera) {
-    const double length = (config_->sensor.T_B_C.Inverse() * second->T_B_C).translation.norm();
+  if (const auto& cameras = config_->sensor.cameras; cameras.size() > 1) {
+    const double length = (cameras[0].T_B_C.Inverse() * cameras[1].T_B_C).translation.norm();
     baseline_error_ = BaselineError(map.window, length, &equations);
   }
   if (config_->sensor.depth) depth_faults_ = FaultsOfDepths(map.window, &equations);
@@ -306,7 +306,7 @@ std::vector<PixelResidual> WindowOdometry::MiddleResiduals() const {
   if (!WindowIsFull()) return {};
   const std::vector<WindowFrame>& frames = estimate_.map.window.frames;
   return PixelResiduals(estimate_.map, frames[frames.size() / 2].state.t_ns,
-                        config_->sensor.camera);
+                        config_->sensor.cameras[0].parameters);
 }
 
 PointMap::Fit WindowOdometry::FitOfNewest(int64_t keyframe_ns) const {
@@ -331,7 +331,7 @@ EstimatorCounts WindowOdometry::LearnFromWindow() {
 }
 
 DepthCounts WindowOdometry::JudgeSecondCamera() {
-  if (!config_->sensor.second_camera) return {};
+  if (config_->sensor.cameras.size() == 1) return {};
   LocalMap& map = estimate_.map;
   return stereo_monitor_.Judge(map.window, &map.points, &map.lines);
 }
@@ -382,7 +382,7 @@ EstimatorOutput WindowOdometry::Describe(const Step& step) const {
                           covariance->bottomRightCorner<6, 6>()};
   }
   output.calibration = CalibrationIn(window, config_->sensor);
-  if (config_->sensor.second_camera) {
+  if (config_->sensor.cameras.size() > 1) {
     output.second_camera = {stereo_monitor_.misfit(), stereo_monitor_.delay(), baseline_error_};
     if (auto& misfit = output.second_camera.misfit_px) *misfit *= options_->focal_length;
   }

@@ -40,14 +40,12 @@ class Loader {
     if (!ReplaceVinsFusionKeys(file, &entries_, &ignored_, &problems_)) {
       throw ConfigError(problems_);
     }
-    const std::string model_type = ModelTypeAsWritten("");
-    std::optional<std::string> second_model_type;
-    if (CameraCount(entries_) == 2) second_model_type = ModelTypeAsWritten(kSecondCameraPrefix);
-    if (!IsModelType(model_type)) unknown_cameras_.push_back("");
-    if (second_model_type && !IsModelType(*second_model_type)) {
-      unknown_cameras_.push_back(kSecondCameraPrefix);
+    std::vector<std::string> model_types;
+    for (int camera = 0; camera < CameraCount(entries_); ++camera) {
+      model_types.push_back(ModelTypeAsWritten(CameraPrefix(camera)));
+      if (!IsModelType(model_types.back())) unknown_cameras_.push_back(CameraPrefix(camera));
     }
-    keys_ = AllKeys(model_type, second_model_type);
+    keys_ = AllKeys(model_types);
     for (const ConfigKey<Config>& key : keys_) known_.push_back(key.name);
   }
 
@@ -145,9 +143,9 @@ class Loader {
       config_.warnings.push_back(At("fisheye_mask") +
                                  "has no effect with fisheye: 0; set fisheye: 1 to use it");
     }
-    WarnOfFold(config_.sensor.camera, "");
-    if (const auto& second = config_.sensor.second_camera) {
-      WarnOfFold(second->camera, kSecondCameraPrefix);
+    const std::vector<CameraSensor>& cameras = config_.sensor.cameras;
+    for (size_t i = 0; i < cameras.size(); ++i) {
+      WarnOfFold(cameras[i].parameters, CameraPrefix(static_cast<int>(i)));
     }
   }
 

@@ -12,12 +12,13 @@
 #include <vector>
 
 #include "common/camera/camera_model.h"
+#include "common/config/stereo_pairs.h"
+#include "common/geometry/so3.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr double kHardlyAnything = 0.01;    // share of the image
-constexpr double kShortestBaseline = 1e-3;  // [m]
+constexpr double kHardlyAnything = 0.01;  // share of the image
 constexpr const char* kNoiseKeys[] = {"acc_n", "gyr_n", "acc_w", "gyr_w"};
 
 bool Has(const ConfigEntries& entries, const std::string& key) { return entries.count(key) > 0; }
@@ -54,38 +55,43 @@ void CheckPrincipalPoint(const CameraParameters& camera, const std::string& pref
 void CheckExtrinsics(const ConfigEntries& entries, const Config& config, const Report& report) {
   const bool is_unknown =
       config.sensor.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation;
-  const bool has_pair = config.sensor.second_camera.has_value();
-  if (is_unknown && !has_pair) return;
+  const bool has_others = config.sensor.cameras.size() > 1;
+  if (is_unknown && !has_others) return;
   for (const char* key : {"extrinsicRotation", "extrinsicTranslation"}) {
     if (Has(entries, key)) continue;
-    report(key, is_unknown ? "is missing; two cameras need it even with estimate_extrinsic: 2"
+    report(key, is_unknown ? "is missing; several cameras need it even with estimate_extrinsic: 2"
                            : "is missing; add it, or set estimate_extrinsic: 2");
   }
 }
 
-void CheckSecondCamera(const ConfigEntries& entries, const SensorConfig& sensor,
-                       const Report& report) {
-  if (!sensor.second_camera) return;
-  const CameraParameters& left = sensor.camera;
-  const CameraParameters& right = sensor.second_camera->camera;
-  const std::string prefix = kSecondCameraPrefix;
-  const auto check_size = [&](const std::string& key, int size, int expected) {
-    if (size != 0 && expected != 0 && size != expected) {
-      report(prefix + key, std::to_string(size) + " differs from the first camera's " +
-                               std::to_string(expected) + "; both images must have the same size");
-    }
+// Two cameras at one place that look in the same direction are probably one transform, copied.
+bool HaveOnePose(const Rigid3d& T_A_B) {
+  constexpr double kDistance = 1e-3, kAngle = 0.05;  // [m], [rad]
+  return T_A_B.translation.norm() < kDistance && SO3Log(T_A_B.rotation).norm() < kAngle;
+}
+
+void CheckTransforms(const ConfigEntries& entries, const std::vector<CameraSensor>& cameras,
+                     const Report& report) {
+  const auto is_given = [&](int camera) {
+    return Has(entries, camera == 0 ? "extrinsicTranslation" : TransformKey(camera));
   };
-  check_size("image_width", right.width, left.width);
-  check_size("image_height", right.height, left.height);
-  CheckPrincipalPoint(right, prefix, report);
-  const Rigid3d T_C0_C1 = sensor.T_B_C.Inverse() * sensor.second_camera->T_B_C;
-  const bool has_transforms = Has(entries, "extrinsicTranslation") && Has(entries, "body_T_cam1");
-  if (has_transforms && T_C0_C1.translation.norm() < kShortestBaseline) {
-    report("body_T_cam1", "gives both cameras the same position; correct it");
+  for (int i = 1; i < static_cast<int>(cameras.size()); ++i) {
+    for (int j = 0; j < i; ++j) {
+      if (!is_given(i) || !is_given(j)) continue;
+      if (!HaveOnePose(cameras[i].T_B_C.Inverse() * cameras[j].T_B_C)) continue;
+      report(TransformKey(i),
+             "equals the transform of camera " + std::to_string(j) + "; correct one of them");
+    }
   }
-  if (sensor.depth) {
-    report("depth_topic", "works with one camera only; remove it, or set num_of_cam: 1");
-  }
+}
+
+void CheckPairs(const SensorConfig& sensor, const Report& report) {
+  if (const Problem problem = CheckStereoPairs(sensor)) report("stereo_pairs", *problem);
+}
+
+void CheckDepth(const SensorConfig& sensor, const Report& report) {
+  if (!sensor.depth || sensor.cameras.size() == 1) return;
+  report("depth_topic", "works with one camera only; remove it, or set num_of_cam: 1");
 }
 
 void CheckShutter(const SensorConfig& sensor, const Report& report) {
@@ -101,15 +107,17 @@ void CheckNoise(const ConfigEntries& entries, const Report& report) {
   }
 }
 
-void CheckImage(const Config& config, const Report& report) {
-  const CameraParameters& camera = config.sensor.camera;
-  CheckPrincipalPoint(camera, "", report);
-  if (!HasSize(camera)) return;
-  if (config.points.min_dist >= std::min(camera.width, camera.height)) {
-    report("min_dist", "must be smaller than the image");
-  }
-  if (2 * config.lines.border >= std::min(camera.width, camera.height) - 1) {
-    report("line_border", "covers the whole image; reduce it");
+void CheckImages(const Config& config, const Report& report) {
+  for (size_t i = 0; i < config.sensor.cameras.size(); ++i) {
+    const CameraParameters& camera = config.sensor.cameras[i].parameters;
+    CheckPrincipalPoint(camera, CameraPrefix(static_cast<int>(i)), report);
+    if (!HasSize(camera)) continue;
+    if (config.points.min_dist >= std::min(camera.width, camera.height)) {
+      report("min_dist", "must be smaller than the image");
+    }
+    if (2 * config.lines.border >= std::min(camera.width, camera.height) - 1) {
+      report("line_border", "covers the whole image; reduce it");
+    }
   }
 }
 
@@ -117,7 +125,7 @@ bool IsName(const std::string& text) {
   return !text.empty() && text.find_first_of(" \t\r\n") == std::string::npos;
 }
 
-using NamedKeys = std::vector<std::pair<const char*, std::string>>;  // keys with their values
+using NamedKeys = std::vector<std::pair<std::string, std::string>>;  // keys with their values
 
 void CheckDistinct(const NamedKeys& keys, const Report& report) {
   std::map<std::string, std::string> key_of_name;
@@ -128,8 +136,11 @@ void CheckDistinct(const NamedKeys& keys, const Report& report) {
 }
 
 void CheckTopics(const SensorConfig& sensor, const Report& report) {
-  NamedKeys topics = {{"image_topic", sensor.image_topic}, {"imu_topic", sensor.imu_topic}};
-  if (sensor.second_camera) topics.emplace_back("image1_topic", sensor.second_camera->image_topic);
+  NamedKeys topics;
+  for (size_t i = 0; i < sensor.cameras.size(); ++i) {
+    topics.emplace_back(TopicKey(static_cast<int>(i)), sensor.cameras[i].image_topic);
+  }
+  topics.emplace_back("imu_topic", sensor.imu_topic);
   if (sensor.depth) topics.emplace_back("depth_topic", sensor.depth->topic);
   for (const auto& [key, topic] : topics) {
     if (!IsName(topic)) report(key, "must be a name without spaces");
@@ -183,10 +194,12 @@ Problem CheckFrameName(const std::string& name) {
 
 void CheckTogether(const ConfigEntries& entries, const Config& config, const Report& report) {
   CheckExtrinsics(entries, config, report);
-  CheckSecondCamera(entries, config.sensor, report);
+  CheckTransforms(entries, config.sensor.cameras, report);
+  CheckPairs(config.sensor, report);
+  CheckDepth(config.sensor, report);
   CheckShutter(config.sensor, report);
   CheckNoise(entries, report);
-  CheckImage(config, report);
+  CheckImages(config, report);
   CheckTopics(config.sensor, report);
   CheckFrames(config, report);
   CheckMask(config, report);

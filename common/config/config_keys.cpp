@@ -18,20 +18,20 @@ ConfigKeys<Config> SharedKeys() {
 
 }  // namespace
 
-ConfigKeys<Config> AllKeys(const std::string& model_type,
-                           const std::optional<std::string>& second_model_type) {
+ConfigKeys<Config> AllKeys(const std::vector<std::string>& model_types) {
   return Join<Config>(
-      {Within(&Config::sensor, SensorKeys(model_type, second_model_type)), SharedKeys(),
+      {Within(&Config::sensor, SensorKeys(model_types)), SharedKeys(),
        Within(&Config::points, PointTrackerKeys()), Within(&Config::lines, LineTrackerKeys()),
        Within(&Config::estimator, EstimatorKeys()), Within(&Config::pose_graph, PoseGraphKeys()),
        Within(&Config::output, OutputKeys())});
 }
 
 ConfigKeys<Config> KeysOf(const Config& config) {
-  const SensorConfig& sensor = config.sensor;
-  std::optional<std::string> second_model_type;
-  if (sensor.second_camera) second_model_type = ModelType(sensor.second_camera->camera.model);
-  return AllKeys(ModelType(sensor.camera.model), second_model_type);
+  std::vector<std::string> model_types;
+  for (const CameraSensor& camera : config.sensor.cameras) {
+    model_types.push_back(ModelType(camera.parameters.model));
+  }
+  return AllKeys(model_types);
 }
 
 void KeepInRange(Config* config) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,10 +9,9 @@
 
 namespace plm_vins {
 
-// Returns all keys of all modules for cameras of these types. A new key needs a line in the list of
-// its module and one in config/reference.yaml.
-ConfigKeys<Config> AllKeys(const std::string& model_type,
-                           const std::optional<std::string>& second_model_type = std::nullopt);
+// Returns all keys of all modules for as many cameras as there are types, by number. A new key
+// needs a line in the list of its module and one in config/reference.yaml.
+ConfigKeys<Config> AllKeys(const std::vector<std::string>& model_types);
 
 // Returns all keys of a file that is equivalent to this configuration.
 ConfigKeys<Config> KeysOf(const Config& config);

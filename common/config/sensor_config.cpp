@@ -33,23 +33,43 @@ Problem SetTranslation(const Eigen::MatrixXd& p_B_C, Rigid3d* T_B_C) {
   return std::nullopt;
 }
 
-ConfigKeys<S> ExtrinsicKeys() {
+Key ExtrinsicModeKey() {
   using Mode = S::ExtrinsicMode;
   Key mode = Key::Choice<Mode>(
       "estimate_extrinsic",
       {{"0", Mode::kFixed}, {"1", Mode::kRefine}, {"2", Mode::kCalibrateRotation}},
       &S::estimate_extrinsic);
   mode.value = [](const S& sensor) { return static_cast<int>(sensor.estimate_extrinsic); };
+  return mode;
+}
+
+// The value decides which cameras there are, so this key precedes theirs.
+Key CameraCountKey() {
+  const auto read = [](const YAML::Node& value, S& sensor) {
+    int count = 1;
+    const Problem problem = ReadInteger(value, "cameras", kCameraCounts, &count);
+    sensor.cameras.resize(count);
+    return problem;
+  };
+  const auto value = [](const S& sensor) {
+    return ConfigValue(static_cast<int>(sensor.cameras.size()));
+  };
+  return {"num_of_cam", "cameras", ToText(kCameraCounts), read, value};
+}
+
+// The transform of camera 0, in the two keys of VINS-Mono.
+ConfigKeys<CameraSensor> FirstTransformKeys() {
+  using Key = ConfigKey<CameraSensor>;
   Key rotation = Key::Matrix(
-      "extrinsicRotation", [](const S& sensor) { return sensor.T_B_C.R(); },
-      [](const auto& R_B_C, S& sensor) { return SetRotation(R_B_C, &sensor.T_B_C); });
+      "extrinsicRotation", [](const CameraSensor& camera) { return camera.T_B_C.R(); },
+      [](const auto& R_B_C, CameraSensor& camera) { return SetRotation(R_B_C, &camera.T_B_C); });
   rotation.allowed = "orthonormal within " + ToText(kRotationTolerance);
   Key translation = Key::Matrix(
-      "extrinsicTranslation", [](const S& sensor) { return sensor.T_B_C.translation; },
-      [](const auto& p_B_C, S& sensor) { return SetTranslation(p_B_C, &sensor.T_B_C); });
+      "extrinsicTranslation", [](const CameraSensor& camera) { return camera.T_B_C.translation; },
+      [](const auto& p_B_C, CameraSensor& camera) { return SetTranslation(p_B_C, &camera.T_B_C); });
   translation.unit = "m";
   translation.allowed = "each " + ToText(kTranslationRange);
-  return {mode, rotation, translation};
+  return {rotation, translation};
 }
 
 Eigen::MatrixXd Matrix4(const Rigid3d& transform) {
@@ -59,29 +79,24 @@ Eigen::MatrixXd Matrix4(const Rigid3d& transform) {
   return matrix;
 }
 
-// The value decides whether there is a second camera, so this key precedes the second camera's
-// keys.
-Key CameraCountKey() {
-  const auto read = [](const YAML::Node& value, S& sensor) {
-    int count = 1;
-    const Problem problem = ReadInteger(value, "cameras", kCameraCounts, &count);
-    if (count == 2) sensor.second_camera.emplace();
-    return problem;
-  };
-  const auto value = [](const S& sensor) { return ConfigValue(sensor.second_camera ? 2 : 1); };
-  return {"num_of_cam", "cameras", ToText(kCameraCounts), read, value};
+ConfigKeys<CameraSensor> TransformKeys(int camera) {
+  if (camera == 0) return FirstTransformKeys();
+  return Required<CameraSensor>({ConfigKey<CameraSensor>::Matrix(
+      TransformKey(camera), [](const CameraSensor& sensor) { return Matrix4(sensor.T_B_C); },
+      [](const auto& T_B_C, CameraSensor& sensor) { return SetTransform(T_B_C, &sensor.T_B_C); })});
 }
 
-ConfigKeys<SecondCamera> SecondCameraKeys(const std::string& model_type) {
-  using Key = ConfigKey<SecondCamera>;
+ConfigKeys<S> KeysOfCamera(int camera, const std::string& model_type) {
   ConfigKeys<CameraParameters> calibration = CameraKeys(model_type);
-  for (auto& key : calibration) key.name = kSecondCameraPrefix + key.name;
-  const Key transform = Key::Matrix(
-      "body_T_cam1", [](const SecondCamera& second) { return Matrix4(second.T_B_C); },
-      [](const auto& T_B_C, SecondCamera& second) { return SetTransform(T_B_C, &second.T_B_C); });
-  return Required(Join<SecondCamera>({{Key::Text("image1_topic", &SecondCamera::image_topic)},
-                                      Within(&SecondCamera::camera, calibration),
-                                      {transform}}));
+  for (auto& key : calibration) key.name = CameraPrefix(camera) + key.name;
+  const auto topic = ConfigKey<CameraSensor>::Text(TopicKey(camera), &CameraSensor::image_topic);
+  const auto find = [camera](auto& sensor) {
+    const bool is_there = camera < static_cast<int>(sensor.cameras.size());
+    return is_there ? &sensor.cameras[camera] : nullptr;
+  };
+  return KeysOfPart<S>(find, Join<CameraSensor>({Required<CameraSensor>({topic}),
+                                                 Within(&CameraSensor::parameters, calibration),
+                                                 TransformKeys(camera)}));
 }
 
 // A topic enables the depth sensor, so its key precedes the others.
@@ -164,13 +179,17 @@ Problem SetTransform(const Eigen::MatrixXd& T_B_C, Rigid3d* transform) {
   return problem ? problem : SetTranslation(T_B_C.topRightCorner(3, 1), transform);
 }
 
-ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type,
-                                    const std::optional<std::string>& second_model_type) {
-  const ConfigKeys<S> topics = {
-      Key::Text("image_topic", &S::image_topic),
-      Key::Text("imu_topic", &S::imu_topic),
-  };
-  const ConfigKeys<S> intrinsics = {Key::Flag("estimate_intrinsics", &S::estimate_intrinsics)};
+std::string CameraPrefix(int camera) {
+  return camera == 0 ? "" : "cam" + std::to_string(camera) + "_";
+}
+
+std::string TopicKey(int camera) {
+  return camera == 0 ? "image_topic" : "image" + std::to_string(camera) + "_topic";
+}
+
+std::string TransformKey(int camera) { return "body_T_cam" + std::to_string(camera); }
+
+ConfigKeys<SensorConfig> SensorKeys(const std::vector<std::string>& model_types) {
   const ConfigKeys<S> timing = {
       Key::Number("td", "s", {-1, 1}, &S::td),
       Key::Flag("estimate_td", &S::estimate_td),
@@ -186,14 +205,20 @@ ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type,
       Key::Number("accel_bias_deviation", "m/s^2", {1e-3, 5}, &S::accel_bias_deviation),
       Key::Number("g_norm", "m/s^2", {9, 10.5}, &S::gravity_norm),
   };
-  ConfigKeys<S> second_camera = {CameraCountKey()};
-  if (second_model_type) {
-    second_camera =
-        Join<S>({second_camera, Within(&S::second_camera, SecondCameraKeys(*second_model_type))});
+  ConfigKeys<S> cameras = {CameraCountKey()};
+  for (size_t i = 0; i < model_types.size(); ++i) {
+    cameras = Join<S>({cameras, KeysOfCamera(static_cast<int>(i), model_types[i])});
   }
-  return Join<S>({Required(topics), Within(&S::camera, CameraKeys(model_type)), intrinsics,
-                  Within(&S::intrinsics_deviation, IntrinsicsDeviationKeys()), ExtrinsicKeys(),
-                  second_camera, DepthKeys(), timing, noise, Within(&S::imu_noise, ImuNoiseKeys()),
+  cameras.push_back(Key::Text("stereo_pairs", &S::stereo_pairs));
+  return Join<S>({cameras,
+                  Required<S>({Key::Text("imu_topic", &S::imu_topic)}),
+                  {Key::Flag("estimate_intrinsics", &S::estimate_intrinsics)},
+                  Within(&S::intrinsics_deviation, IntrinsicsDeviationKeys()),
+                  {ExtrinsicModeKey()},
+                  DepthKeys(),
+                  timing,
+                  noise,
+                  Within(&S::imu_noise, ImuNoiseKeys()),
                   Within(&S::imu, ImuSensorKeys())});
 }
 

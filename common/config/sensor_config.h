@@ -3,12 +3,14 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/camera/camera_model.h"
 #include "common/config/config_key.h"
 #include "common/geometry/rigid3.h"
 #include "common/imu/imu_noise.h"
 #include "common/imu/imu_sensor.h"
+#include "common/measurements.h"
 
 namespace plm_vins {
 
@@ -19,14 +21,14 @@ struct IntrinsicsDeviation {
   double distortion = 0.005;   // each distortion coefficient [1]
 };
 
-// The right camera of a stereo pair.
-struct SecondCamera {
-  std::string image_topic = "/cam1/image_raw";
-  CameraParameters camera;
+// One camera of the rig.
+struct CameraSensor {
+  std::string image_topic = "/cam0/image_raw";
+  CameraParameters parameters;
   Rigid3d T_B_C;  // camera in the body (IMU) frame
 };
 
-// Depth images that are registered to the camera: its size and lens apply.
+// Depth images that are registered to camera 0: its size and lens apply.
 struct DepthSensor {
   std::string topic;
   double noise = 0.002;  // standard deviation of a depth z is noise * z^2 [1/m]
@@ -35,13 +37,11 @@ struct DepthSensor {
 
 // The sensors: topics, calibration, noise.
 struct SensorConfig {
-  std::string image_topic = "/cam0/image_raw";
+  std::vector<CameraSensor> cameras{1};  // by number; 1 to 4
+  std::string stereo_pairs = "auto";     // see StereoPairs()
   std::string imu_topic = "/imu0";
-  CameraParameters camera;
   bool estimate_intrinsics = false;
   IntrinsicsDeviation intrinsics_deviation;
-  Rigid3d T_B_C;  // camera in the body (IMU) frame
-  std::optional<SecondCamera> second_camera;
   std::optional<DepthSensor> depth;
   enum class ExtrinsicMode { kFixed = 0, kRefine = 1, kCalibrateRotation = 2 };
   ExtrinsicMode estimate_extrinsic = ExtrinsicMode::kFixed;
@@ -63,16 +63,22 @@ struct SensorConfig {
   double ReadoutTime() const { return rolling_shutter ? rolling_shutter_tr : 0.0; }
 };
 
-constexpr Range kCameraCounts = {1, 2};
+constexpr Range kCameraCounts = {1, kMaxCameras};
 
-// Key prefix of the second camera's calibration: "cam1_model_type".
-constexpr const char* kSecondCameraPrefix = "cam1_";
+// Returns the prefix of a camera's calibration keys: "cam2_" as in "cam2_model_type"; empty for
+// camera 0.
+std::string CameraPrefix(int camera);
+
+// Returns the key of a camera's topic: "image_topic", "image1_topic", ...
+std::string TopicKey(int camera);
+
+// Returns the key of the transform of a camera other than 0: "body_T_cam1", ...
+std::string TransformKey(int camera);
 
 // Sets the transform from a 4x4 matrix. Returns a problem if it is not a rigid transform.
 Problem SetTransform(const Eigen::MatrixXd& T_B_C, Rigid3d* transform);
 
-// Returns all keys for cameras of these types; those of the second camera only if it has a type.
-ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type,
-                                    const std::optional<std::string>& second_model_type);
+// Returns all keys for as many cameras as there are types, by number.
+ConfigKeys<SensorConfig> SensorKeys(const std::vector<std::string>& model_types);
 
 }  // namespace plm_vins

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <regex>
 #include <system_error>
 #include <utility>
 
@@ -12,12 +14,13 @@
 namespace plm_vins {
 namespace {
 
-bool BeginsWith(const std::string& text, const std::string& prefix) {
-  return text.rfind(prefix, 0) == 0;
-}
-
-bool BelongsToSecondCamera(const std::string& key) {
-  return BeginsWith(key, kSecondCameraPrefix) || key == "image1_topic" || key == "body_T_cam1";
+// Returns the number of the camera that a key belongs to: 2 for "cam2_model_type", "cam2_calib",
+// "image2_topic" and "body_T_cam2". Returns nullopt if the key has no number.
+std::optional<int> CameraNumber(const std::string& key) {
+  static const std::regex pattern("cam(\\d)_.*|image(\\d)_topic|body_T_cam(\\d)");
+  std::smatch match;
+  if (!std::regex_match(key, match, pattern)) return std::nullopt;
+  return std::stoi(match.format("$1$2$3"));
 }
 
 bool IsOfCalibration(const std::string& key) {
@@ -46,14 +49,17 @@ class Replacement {
         problems_(*problems) {}
 
   bool Run() {
-    const bool has_second_camera = CameraCount(entries_) == 2;
-    if (!has_second_camera) IgnoreSecondCamera();
+    if (!CheckNumbers()) return false;
+    IgnoreFurtherCameras();
     RequireImu();
     Rename("image0_topic", "image_topic");
     UseMaskThatExists();
     SplitTransform();
-    const bool has_first = Include("cam0_calib", "");
-    return Include("cam1_calib", kSecondCameraPrefix) && has_first;
+    bool has_all = true;
+    for (int camera = 0; camera < CameraCount(entries_); ++camera) {
+      has_all = Include("cam" + std::to_string(camera) + "_calib", CameraPrefix(camera)) && has_all;
+    }
+    return has_all;
   }
 
  private:
@@ -78,9 +84,27 @@ class Replacement {
     problems_.push_back(entry.name + ": " + problem);
   }
 
-  void IgnoreSecondCamera() {
+  // A camera without any key, while one with a higher number has some, is a gap.
+  bool CheckNumbers() {
+    std::map<int, std::string> key_of_camera;
+    for (const auto& [key, entry] : entries_) {
+      if (const auto camera = CameraNumber(key)) key_of_camera.emplace(*camera, entry.name);
+    }
+    for (int camera = 1; camera < CameraCount(entries_); ++camera) {
+      const auto next = key_of_camera.lower_bound(camera);
+      if (next == key_of_camera.end()) return true;  // reported as missing keys
+      if (next->first == camera) continue;
+      problems_.push_back(next->second + ": camera " + std::to_string(camera) +
+                          " has no keys; number the cameras without a gap");
+      return false;
+    }
+    return true;
+  }
+
+  void IgnoreFurtherCameras() {
+    const int count = CameraCount(entries_);
     for (auto entry = entries_.begin(); entry != entries_.end();) {
-      const bool is_ignored = BelongsToSecondCamera(entry->first);
+      const bool is_ignored = CameraNumber(entry->first).value_or(0) >= count;
       if (is_ignored) ignored_.push_back(entry->first);
       entry = is_ignored ? entries_.erase(entry) : std::next(entry);
     }

@@ -12,10 +12,10 @@ namespace plm_vins {
 int CameraCount(const ConfigEntries& entries);
 
 // Replaces the keys that only VINS-Fusion has by equivalent ones: image0_topic, body_T_cam0, and
-// the calibrations in the files cam0_calib and cam1_calib, relative to the configuration `file`.
-// Adds keys that have no effect to `ignored`. Adds to `problems` an unreadable camera file,
-// contradictory values, and odometry without an IMU. Returns false if a calibration could not be
-// read.
+// the calibrations in the files cam0_calib, cam1_calib, ..., relative to the configuration `file`.
+// Adds keys that have no effect to `ignored`, among them those of cameras beyond num_of_cam. Adds
+// to `problems` an unreadable camera file, a camera without keys, contradictory values, and
+// odometry without an IMU. Returns false if the keys of a camera are unknown.
 bool ReplaceVinsFusionKeys(const std::string& file, ConfigEntries* entries,
                            std::vector<std::string>* ignored, std::vector<std::string>* problems);
 

@@ -15,15 +15,15 @@ struct CommonPoint {
   const PointObservation* second;
 };
 
-// Returns the points observed in both images, in the order of the second one. Both must outlive the
-// result.
+// Returns the points that a camera observes in both frames, in the order of the second one. Both
+// must outlive the result.
 inline std::vector<CommonPoint> CommonPoints(const PointFrame& first, const PointFrame& second) {
-  std::unordered_map<int64_t, const PointObservation*> by_id;
-  for (const PointObservation& point : first.points) by_id.emplace(point.id, &point);
+  std::unordered_map<int64_t, const PointObservation*> by_track;
+  for (const PointObservation& point : first.points) by_track.emplace(TrackKey(point), &point);
   std::vector<CommonPoint> common;
   for (const PointObservation& point : second.points) {
-    const auto before = by_id.find(point.id);
-    if (before != by_id.end()) common.push_back({before->second, &point});
+    const auto before = by_track.find(TrackKey(point));
+    if (before != by_track.end()) common.push_back({before->second, &point});
   }
   return common;
 }

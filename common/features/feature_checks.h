@@ -24,40 +24,36 @@ inline bool IsWithin(const Eigen::Vector2d& xy, double limit) {
   return xy.allFinite() && xy.cwiseAbs().maxCoeff() <= limit;
 }
 
+inline bool IsCamera(int number) { return number >= 0 && number < kMaxCameras; }
+
 inline bool IsPossible(const PointObservation& point) {
-  return IsWithin(point.xy, kMaxImageCoordinate) && IsWithin(point.velocity, kMaxImageVelocity) &&
-         IsWithin(point.uv_px, kMaxPixel) &&
-         point.right.has_value() == (point.right_search == RightSearch::kFound) &&
-         point.right_search <= RightSearch::kFound &&
-         (!point.right || IsWithin(*point.right, kMaxImageCoordinate)) &&
+  return IsCamera(point.camera) && IsWithin(point.xy, kMaxImageCoordinate) &&
+         IsWithin(point.velocity, kMaxImageVelocity) && IsWithin(point.uv_px, kMaxPixel) &&
          (!point.depth || (*point.depth > 0 && *point.depth <= kMaxDepth));
 }
 
 inline bool IsPossible(const LineObservation& line) {
-  if (!IsWithin(line.start, kMaxImageCoordinate)) return false;
-  if (!IsWithin(line.end, kMaxImageCoordinate)) return false;
-  if (!line.right) return true;
-  const auto& [start, end, deviation] = *line.right;
-  return IsWithin(start, kMaxImageCoordinate) && IsWithin(end, kMaxImageCoordinate) &&
-         IsWithin(deviation, kMaxImageCoordinate) && deviation.minCoeff() > 0;
+  return IsCamera(line.camera) && IsWithin(line.start, kMaxImageCoordinate) &&
+         IsWithin(line.end, kMaxImageCoordinate) && IsWithin(line.deviation, kMaxImageCoordinate) &&
+         line.deviation.minCoeff() >= 0;
 }
 
-// Returns whether the observation is plausible and its id is not in `ids`; inserts the id.
+// Returns whether the observation is plausible and its track is not in `tracks`; inserts the track.
 template <typename Observation>
-bool IsPossibleAndNew(const Observation& observation, std::unordered_set<int64_t>* ids) {
-  return IsPossible(observation) && ids->insert(observation.id).second;
+bool IsPossibleAndNew(const Observation& observation, std::unordered_set<int64_t>* tracks) {
+  return IsPossible(observation) && tracks->insert(TrackKey(observation)).second;
 }
 
-// Removes implausible observations, repeated ids, and observations beyond the first kMaxFeatures.
-// Returns the number of removed observations.
+// Removes implausible observations, ids that a camera repeats, and observations beyond the first
+// kMaxFeatures. Returns the number of removed observations.
 template <typename Observation>
 int64_t RemoveImpossible(std::vector<Observation>* observations) {
-  std::unordered_set<int64_t> ids;
+  std::unordered_set<int64_t> tracks;
   std::vector<Observation> possible;
   possible.reserve(std::min(observations->size(), kMaxFeatures));
   for (const Observation& observation : *observations) {
     if (possible.size() == kMaxFeatures) break;
-    if (IsPossibleAndNew(observation, &ids)) possible.push_back(observation);
+    if (IsPossibleAndNew(observation, &tracks)) possible.push_back(observation);
   }
   const size_t removed = observations->size() - possible.size();
   observations->swap(possible);

@@ -9,7 +9,6 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "common/image_companions.h"
 #include "common/measurements.h"
 
 namespace plm_vins {

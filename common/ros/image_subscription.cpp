@@ -15,8 +15,10 @@
 namespace plm_vins {
 
 void ImageSubscription::Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node,
-                                  const std::string& topic, uint32_t queue, Callback callback) {
+                                  const std::string& topic, uint32_t queue, Callback callback,
+                                  Selector is_needed) {
   callback_ = std::move(callback);
+  is_needed_ = std::move(is_needed);
   const auto transport =
       FindParameter<std::string>(private_node, "image_transport").value_or("raw");
   // A remapping refers to the topic without the transport suffix, and must be applied only once.
@@ -45,7 +47,9 @@ std::string ImageSubscription::type() const {
 // `message` is a message, or a pointer to one whose pixels are shared.
 template <typename Message>
 void ImageSubscription::Read(const std_msgs::Header& header, const Message& message) {
-  stream_.Add(ToNanoseconds(header.stamp));
+  const int64_t t_ns = ToNanoseconds(header.stamp);
+  stream_.Add(t_ns);
+  if (!is_needed_(t_ns)) return callback_(ImageSample{t_ns, {}});
   std::optional<ImageSample> image;
   try {
     image = ToImageSample(message);

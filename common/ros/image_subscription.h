@@ -31,9 +31,14 @@ class ImageSubscription {
   // Receives an image, or nullopt if a message cannot be converted, which is counted.
   using Callback = std::function<void(std::optional<ImageSample>)>;
 
+  // Returns whether the pixels of an image with this timestamp are needed. An image that is not
+  // needed is not decoded: the callback receives it without pixels.
+  using Selector = std::function<bool(int64_t t_ns)>;
+
   // Must be called once. Callbacks come through the queue of `node`, with at most `queue` waiting.
-  void Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node,
-                 const std::string& topic, uint32_t queue, Callback callback);
+  void Subscribe(
+      ros::NodeHandle node, const ros::NodeHandle& private_node, const std::string& topic,
+      uint32_t queue, Callback callback, Selector is_needed = [](int64_t) { return true; });
 
   // Full name of the subscribed topic, with namespace, remapping and transport.
   std::string topic() const;
@@ -52,6 +57,7 @@ class ImageSubscription {
   void Read(const std_msgs::Header& header, const Message& message);
 
   Callback callback_;
+  Selector is_needed_;
   StreamMonitor stream_;
   StreamMonitor readable_{"readable_images"};
   mutable std::mutex mutex_;  // guards the count

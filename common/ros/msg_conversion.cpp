@@ -5,7 +5,6 @@
 #include <array>
 #include <stdexcept>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "common/features/feature_checks.h"
@@ -21,11 +20,10 @@ void AddChannel(const std::string& name, size_t size, sensor_msgs::PointCloud* c
   cloud->channels.back().values.reserve(size);
 }
 
-// Channels for observations by further sensors, after the channels of the VINS family.
-constexpr std::array<const char*, 3> kRightPointChannels = {"right_search", "right_x", "right_y"};
+// Channels after those of VINS-Mono and PL-VINS.
 constexpr std::array<const char*, 1> kDepthChannels = {"depth"};
-constexpr std::array<const char*, 6> kRightLineChannels = {
-    "right_x", "right_y", "right_x_end", "right_y_end", "right_deviation", "right_deviation_end"};
+constexpr std::array<const char*, 3> kFurtherLineChannels = {"camera_id", "deviation",
+                                                             "deviation_end"};
 
 template <size_t kSize>
 sensor_msgs::PointCloud FeatureCloud(int64_t t_ns, const std::string& frame_id, size_t size,
@@ -104,24 +102,43 @@ struct PointLayout {
 };
 
 PointLayout LayoutOf(const sensor_msgs::PointCloud& points) {
-  const bool is_ours = FindChannels(points, kRightPointChannels) != nullptr ||
-                       FindChannels(points, kDepthChannels) != nullptr;
-  if (points.channels.size() > 5 && !is_ours) return {6, 2, "id, camera_id, u, v, vx, vy"};
+  const bool has_depth = FindChannels(points, kDepthChannels) != nullptr;
+  if (points.channels.size() - has_depth > 5) return {6, 2, "id, camera_id, u, v, vx, vy"};
   if (HasVelocities(points)) return {5, 1, "id, u, v, vx, vy"};
   return {3, 1, "id, u, v (, vx, vy)"};
 }
 
-void AddRight(const std::vector<PointObservation>& points, sensor_msgs::PointCloud* cloud) {
-  const auto values = [](const PointObservation& point) {
-    const Eigen::Vector2d right = point.right.value_or(Eigen::Vector2d::Zero());
-    return std::array<double, 3>{static_cast<double>(point.right_search), right.x(), right.y()};
-  };
-  const auto is_due = [](const PointObservation& point) {
-    return point.right_search != RightSearch::kNotDue;
-  };
-  if (std::any_of(points.begin(), points.end(), is_due)) {
-    AddChannels(kRightPointChannels, points, values, cloud);
+// Returns -1, which is no camera, for other values.
+int ReadCamera(float value) {
+  return value >= 0 && value < static_cast<float>(kMaxCameras) ? static_cast<int>(value) : -1;
+}
+
+template <typename Observation>
+bool HasFurtherCameras(const std::vector<Observation>& observations) {
+  return std::any_of(observations.begin(), observations.end(),
+                     [](const Observation& observation) { return observation.camera > 0; });
+}
+
+sensor_msgs::PointCloud WithoutCameras(const PointFrame& frame, const std::string& frame_id) {
+  const std::array<const char*, 5> channels = {"id", "u", "v", "vx", "vy"};
+  sensor_msgs::PointCloud cloud = FeatureCloud(frame.t_ns, frame_id, frame.points.size(), channels);
+  for (const PointObservation& point : frame.points) {
+    const std::array<double, 5> values = {static_cast<double>(WrapId(point.id)), point.uv_px.x(),
+                                          point.uv_px.y(), point.velocity.x(), point.velocity.y()};
+    Append(point.xy, values, &cloud);
   }
+  return cloud;
+}
+
+sensor_msgs::PointCloud WithCameras(const PointFrame& frame, const std::string& frame_id) {
+  sensor_msgs::PointCloud cloud = WithoutCameras(frame, frame_id);
+  sensor_msgs::ChannelFloat32 cameras;
+  cameras.name = "camera_id";
+  for (const PointObservation& point : frame.points) {
+    cameras.values.push_back(static_cast<float>(point.camera));
+  }
+  cloud.channels.insert(cloud.channels.begin() + 1, cameras);
+  return cloud;
 }
 
 void AddDepth(const std::vector<PointObservation>& points, sensor_msgs::PointCloud* cloud) {
@@ -134,46 +151,6 @@ void AddDepth(const std::vector<PointObservation>& points, sensor_msgs::PointClo
   }
 }
 
-void AddRight(const std::vector<LineObservation>& lines, sensor_msgs::PointCloud* cloud) {
-  const auto values = [](const LineObservation& line) {
-    const auto [start, end, deviation] = line.right.value_or(RightSegment());
-    return std::array<double, 6>{start.x(), start.y(),     end.x(),
-                                 end.y(),   deviation.x(), deviation.y()};
-  };
-  const auto has_right = [](const LineObservation& line) { return line.right.has_value(); };
-  if (std::any_of(lines.begin(), lines.end(), has_right)) {
-    AddChannels(kRightLineChannels, lines, values, cloud);
-  }
-}
-
-// Reads the channels of further sensors for the i-th point of a message.
-void ReadCompanions(const sensor_msgs::PointCloud& message, size_t i, PointObservation* point) {
-  if (const auto* right = FindChannels(message, kRightPointChannels)) {
-    const float search = right[0].values[i];
-    if (!(search >= 0 && search <= static_cast<float>(RightSearch::kFound))) return;
-    point->right_search = static_cast<RightSearch>(search);
-    if (point->right_search == RightSearch::kFound) {
-      point->right = Eigen::Vector2d(right[1].values[i], right[2].values[i]);
-    }
-  }
-  const auto* depth = FindChannels(message, kDepthChannels);
-  if (depth != nullptr && depth->values[i] > 0) point->depth = depth->values[i];
-}
-
-// Adds VINS-Fusion's points of the second camera to those of the first one with the same id.
-void AddSecondCamera(const sensor_msgs::PointCloud& message,
-                     std::vector<PointObservation>* points) {
-  std::unordered_map<int64_t, PointObservation*> by_id;
-  for (PointObservation& point : *points) by_id[point.id] = &point;
-  for (size_t i = 0; i < message.points.size(); ++i) {
-    if (message.channels[1].values[i] != 1) continue;
-    const auto found = by_id.find(ReadId(message.channels[0].values[i]));
-    if (found == by_id.end()) continue;
-    found->second->right = Eigen::Vector2d(message.points[i].x, message.points[i].y);
-    found->second->right_search = RightSearch::kFound;
-  }
-}
-
 }  // namespace
 
 ImuSample ToImuSample(const sensor_msgs::Imu& message) {
@@ -183,14 +160,8 @@ ImuSample ToImuSample(const sensor_msgs::Imu& message) {
 }
 
 sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& frame_id) {
-  const std::array<const char*, 5> channels = {"id", "u", "v", "vx", "vy"};
-  sensor_msgs::PointCloud cloud = FeatureCloud(frame.t_ns, frame_id, frame.points.size(), channels);
-  for (const PointObservation& point : frame.points) {
-    const std::array<double, 5> values = {static_cast<double>(WrapId(point.id)), point.uv_px.x(),
-                                          point.uv_px.y(), point.velocity.x(), point.velocity.y()};
-    Append(point.xy, values, &cloud);
-  }
-  AddRight(frame.points, &cloud);
+  sensor_msgs::PointCloud cloud = HasFurtherCameras(frame.points) ? WithCameras(frame, frame_id)
+                                                                  : WithoutCameras(frame, frame_id);
   AddDepth(frame.points, &cloud);
   return cloud;
 }
@@ -198,24 +169,23 @@ sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& fr
 PointFrame ToPointFrame(const sensor_msgs::PointCloud& message, int64_t* left_out) {
   const PointLayout layout = LayoutOf(message);
   CheckChannels(message, layout.channels, layout.names);
-  const bool has_cameras = layout.channels == 6;
-  const bool has_velocities = HasVelocities(message);
+  const auto* depth = FindChannels(message, kDepthChannels);
   PointFrame frame;
   frame.t_ns = StampOf(message);
-  frame.points.reserve(message.points.size());
+  frame.points.resize(message.points.size());
   const auto value = [&](size_t channel, size_t i) { return message.channels[channel].values[i]; };
   for (size_t i = 0; i < message.points.size(); ++i) {
-    if (has_cameras && value(1, i) != 0) continue;
-    PointObservation& point = frame.points.emplace_back();
+    PointObservation& point = frame.points[i];
     const size_t pixel = layout.first_pixel;
     point.id = ReadId(value(0, i));
+    if (pixel == 2) point.camera = ReadCamera(value(1, i));
     point.xy = {message.points[i].x, message.points[i].y};
     point.uv_px = {value(pixel, i), value(pixel + 1, i)};
-    if (has_velocities) point.velocity = {value(pixel + 2, i), value(pixel + 3, i)};
-    ReadCompanions(message, i, &point);
+    if (HasVelocities(message)) point.velocity = {value(pixel + 2, i), value(pixel + 3, i)};
+    if (depth != nullptr && depth->values[i] > 0) point.depth = depth->values[i];
   }
-  if (has_cameras) AddSecondCamera(message, &frame.points);
   *left_out += RemoveImpossible(&frame.points);
+  SortByCamera(&frame.points);
   return frame;
 }
 
@@ -227,7 +197,12 @@ sensor_msgs::PointCloud ToMessage(const LineFrame& frame, const std::string& fra
                                           line.end.y()};
     Append(line.start, values, &cloud);
   }
-  AddRight(frame.lines, &cloud);
+  if (!HasFurtherCameras(frame.lines)) return cloud;
+  const auto values = [](const LineObservation& line) {
+    return std::array<double, 3>{static_cast<double>(line.camera), line.deviation.x(),
+                                 line.deviation.y()};
+  };
+  AddChannels(kFurtherLineChannels, frame.lines, values, &cloud);
   return cloud;
 }
 
@@ -236,19 +211,19 @@ LineFrame ToLineFrame(const sensor_msgs::PointCloud& message, int64_t* left_out)
   LineFrame frame;
   frame.t_ns = StampOf(message);
   frame.lines.resize(message.points.size());
-  const auto* right = FindChannels(message, kRightLineChannels);
+  const auto* further = FindChannels(message, kFurtherLineChannels);
   const auto value = [&](int channel, size_t i) { return message.channels[channel].values[i]; };
   for (size_t i = 0; i < frame.lines.size(); ++i) {
-    frame.lines[i].id = ReadId(value(0, i));
-    frame.lines[i].start = {message.points[i].x, message.points[i].y};
-    frame.lines[i].end = {value(1, i), value(2, i)};
-    if (right == nullptr || !(right[4].values[i] > 0)) continue;
-    const auto pair = [&](size_t k) {
-      return Eigen::Vector2d(right[k].values[i], right[k + 1].values[i]);
-    };
-    frame.lines[i].right = RightSegment{pair(0), pair(2), pair(4)};
+    LineObservation& line = frame.lines[i];
+    line.id = ReadId(value(0, i));
+    line.start = {message.points[i].x, message.points[i].y};
+    line.end = {value(1, i), value(2, i)};
+    if (further == nullptr) continue;
+    line.camera = ReadCamera(further[0].values[i]);
+    line.deviation = {further[1].values[i], further[2].values[i]};
   }
   *left_out += RemoveImpossible(&frame.lines);
+  SortByCamera(&frame.lines);
   return frame;
 }
 

@@ -14,13 +14,12 @@ namespace plm_vins {
 
 ImuSample ToImuSample(const sensor_msgs::Imu& message);
 
-// /feature_tracker/feature has VINS-Mono's format: points (x, y, 1), channels id, u, v, vx, vy. Ids
-// are transmitted modulo kTransportableIds; IdRestorer restores them. Further channels with the
-// names "right_search", "right_x", "right_y" and "depth" follow if any point has such values.
-// Reading supports the layouts of PL-VINS (id, u, v) and VINS-Fusion (id, camera, u, v, vx, vy,
-// ...; points of camera 1 are those of the second camera) as well. It throws std::invalid_argument
-// if channels are missing or the timestamp or an id is invalid. It drops the observations that
-// RemoveImpossible() removes, and adds their number to `left_out`.
+// /feature_tracker/feature has VINS-Mono's format: points (x, y, 1), channels id, u, v, vx, vy;
+// with observations of further cameras VINS-Fusion's: id, camera_id, u, v, vx, vy. A channel
+// "depth" follows if any point has one. Ids are transmitted modulo kTransportableIds; IdRestorer
+// restores them. Reading supports the layout of PL-VINS (id, u, v) as well. It throws
+// std::invalid_argument if channels are missing or the timestamp or an id is invalid. It drops the
+// observations that RemoveImpossible() removes, and adds their number to `left_out`.
 sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& frame_id);
 PointFrame ToPointFrame(const sensor_msgs::PointCloud& message, int64_t* left_out);
 
@@ -30,9 +29,8 @@ inline bool HasVelocities(const sensor_msgs::PointCloud& points) {
 }
 
 // /linefeature_tracker/linefeature has PL-VINS' format: points are the starts (x, y, 1) of the
-// lines, channels id, x_end, y_end. Further channels with the names "right_x", "right_y",
-// "right_x_end", "right_y_end", "right_deviation" and "right_deviation_end" follow if the second
-// camera observes any line.
+// lines, channels id, x_end, y_end. With observations of further cameras the channels camera_id,
+// deviation and deviation_end follow.
 sensor_msgs::PointCloud ToMessage(const LineFrame& frame, const std::string& frame_id);
 LineFrame ToLineFrame(const sensor_msgs::PointCloud& message, int64_t* left_out);
 

@@ -28,7 +28,7 @@ void CheckTopicNames(const ros::NodeHandle& node, const Config& config) {
                          "\" is not a valid topic name: " + error.what());
     }
   };
-  check("image_topic", config.sensor.image_topic);
+  check("image_topic", config.sensor.cameras[0].image_topic);
   check("imu_topic", config.sensor.imu_topic);
   if (!problems.empty()) throw ConfigError(problems);
 }

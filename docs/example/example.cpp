@@ -13,7 +13,7 @@ int main(int, char** argv) {
   const Config config = LoadConfig(argv[1]);
   PointTrackingStage tracker(config);
   EstimationStage estimator(config);
-  const CameraParameters& camera = config.sensor.camera;
+  const CameraParameters& camera = config.sensor.cameras[0].parameters;
   cv::Mat gray(camera.height, camera.width, CV_8UC1);  // replace by the images of your camera
   cv::randu(gray, 0, 255);
   cv::GaussianBlur(gray, gray, {}, 3);

@@ -7,7 +7,7 @@
 
 #include "feature_tracker/detection/corner_refinement.h"
 #include "feature_tracker/detection/region_queue.h"
-#include "tracking/image_mask.h"
+#include "tracking/images/image_mask.h"
 
 namespace plm_vins {
 namespace {

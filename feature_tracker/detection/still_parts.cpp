@@ -114,10 +114,10 @@ int CountSame(const cv::Mat& gray_a, const cv::Mat& gray_b,
 
 }  // namespace
 
-void StillParts::Add(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0,
+void StillParts::Add(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_now_then,
                      const std::vector<cv::Point2f>& corners) {
-  if (!R_C1_C0) past_.clear();
-  for (Past& past : past_) past.R_now_then = (*R_C1_C0 * past.R_now_then).normalized();
+  if (!R_now_then) past_.clear();
+  for (Past& past : past_) past.R_now_then = (*R_now_then * past.R_now_then).normalized();
   while (!past_.empty() && ToSeconds(image.t_ns - past_.front().image.t_ns) > kMaxAge) {
     past_.pop_front();
   }

@@ -28,7 +28,7 @@ class StillParts {
 
   // Adds the next image, the rotation from the previous camera frame to its own (nullopt if
   // unknown), and the corners that were tracked into it [px].
-  void Add(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0,
+  void Add(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_now_then,
            const std::vector<cv::Point2f>& corners);
 
   // CV_8UC1, zero where the image stands still; empty if nothing does.

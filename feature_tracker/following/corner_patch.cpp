@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracking/image_sampling.h"
+#include "tracking/images/image_sampling.h"
 
 namespace plm_vins {
 namespace {

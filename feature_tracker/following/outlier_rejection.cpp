@@ -23,22 +23,22 @@ constexpr int kRotationIterations = 10;
 constexpr int kSolverIterations = 4;
 constexpr double kNotRobust = 1.0;  // [rad], exceeds any error
 
-// Relative camera pose up to scale: p_C1 ~ R p_C0 + s t.
+// Relative camera pose up to scale: p_now ~ R p_then + s t.
 struct EpipolarGeometry {
-  Eigen::Matrix3d R_C1_C0 = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d t_C1 = Eigen::Vector3d::UnitZ();  // unit length
+  Eigen::Matrix3d R_now_then = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d t_now = Eigen::Vector3d::UnitZ();  // unit length
 };
 
-// Residual of the epipolar constraint t . (a x b) = 0 with a = R ray_C0, b = ray_C1, normalized to
-// the angular error of either ray (first-order or Sampson error) [rad].
+// Residual of the epipolar constraint t . (a x b) = 0 with a = R ray_then, b = ray_now, normalized
+// to the angular error of either ray (first-order or Sampson error) [rad].
 struct EpipolarResidual {
   EpipolarResidual(const EpipolarGeometry& geometry, const RayPair& pair)
-      : a(geometry.R_C1_C0 * pair.ray_C0),
-        b(pair.ray_C1),
-        weight(1.0 / std::sqrt(0.5 * (geometry.t_C1.cross(a).squaredNorm() +
-                                      geometry.t_C1.cross(b).squaredNorm()) +
+      : a(geometry.R_now_then * pair.ray_then),
+        b(pair.ray_now),
+        weight(1.0 / std::sqrt(0.5 * (geometry.t_now.cross(a).squaredNorm() +
+                                      geometry.t_now.cross(b).squaredNorm()) +
                                kEpipole)),
-        error(weight * geometry.t_C1.dot(a.cross(b))) {}
+        error(weight * geometry.t_now.dot(a.cross(b))) {}
 
   static constexpr double kEpipole = 1e-9;  // avoids a division by zero for rays along t
   Eigen::Vector3d a, b;
@@ -65,8 +65,8 @@ Eigen::Matrix3d FitRotation(const std::vector<RayPair>& pairs, double scale) {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
     for (const RayPair& pair : pairs) {
-      const Eigen::Vector3d a = R * pair.ray_C0;
-      const Eigen::Vector3d error = pair.ray_C1 - a;
+      const Eigen::Vector3d a = R * pair.ray_then;
+      const Eigen::Vector3d error = pair.ray_now - a;
       const double weight = GemanMcClureWeight(error.norm(), scale);
       H += weight * (Eigen::Matrix3d::Identity() - a * a.transpose());
       g += weight * a.cross(error);
@@ -79,10 +79,10 @@ Eigen::Matrix3d FitRotation(const std::vector<RayPair>& pairs, double scale) {
 }
 
 // Translation direction from two pairs: t . (a x b) = 0 for both.
-std::optional<Eigen::Vector3d> TranslationOfTwo(const Eigen::Matrix3d& R_C1_C0,
+std::optional<Eigen::Vector3d> TranslationOfTwo(const Eigen::Matrix3d& R_now_then,
                                                 const RayPair& pair0, const RayPair& pair1) {
-  const Eigen::Vector3d normal0 = (R_C1_C0 * pair0.ray_C0).cross(pair0.ray_C1);
-  const Eigen::Vector3d normal1 = (R_C1_C0 * pair1.ray_C0).cross(pair1.ray_C1);
+  const Eigen::Vector3d normal0 = (R_now_then * pair0.ray_then).cross(pair0.ray_now);
+  const Eigen::Vector3d normal1 = (R_now_then * pair1.ray_then).cross(pair1.ray_now);
   const Eigen::Vector3d t = normal0.cross(normal1);
   const double length = t.norm();
   if (!(length > 0)) return std::nullopt;
@@ -96,20 +96,20 @@ EpipolarGeometry Refine(const std::vector<RayPair>& pairs, const EpipolarGeometr
   using Matrix5d = Eigen::Matrix<double, 5, 5>;
   using Vector5d = Eigen::Matrix<double, 5, 1>;
   constexpr double kDamping = 1e-4;
-  const Eigen::Matrix<double, 3, 2> basis = TangentBasis(geometry.t_C1);
+  const Eigen::Matrix<double, 3, 2> basis = TangentBasis(geometry.t_now);
   Matrix5d H = kDamping * Matrix5d::Identity();
   Vector5d g = Vector5d::Zero();
   for (const RayPair& pair : pairs) {
     const EpipolarResidual r(geometry, pair);
-    const Vector5d J = EpipolarGradient(r.weight, r.a, r.b, geometry.t_C1, basis);
+    const Vector5d J = EpipolarGradient(r.weight, r.a, r.b, geometry.t_now, basis);
     const double weight = GemanMcClureWeight(r.error, scale);
     H.noalias() += weight * J * J.transpose();
     g.noalias() -= weight * r.error * J;
   }
   const Vector5d step = H.ldlt().solve(g);
   if (!step.allFinite()) return geometry;
-  return {SO3Exp(step.head<3>()) * geometry.R_C1_C0,
-          (geometry.t_C1 + basis * step.tail<2>()).normalized()};
+  return {SO3Exp(step.head<3>()) * geometry.R_now_then,
+          (geometry.t_now + basis * step.tail<2>()).normalized()};
 }
 
 // Draws `count` pairs with replacement.
@@ -147,13 +147,14 @@ EpipolarGeometry FindGeometry(const std::vector<RayPair>& pairs, const Eigen::Ma
 }  // namespace
 
 std::vector<bool> FindEpipolarInliers(const std::vector<RayPair>& pairs,
-                                      const std::optional<Eigen::Quaterniond>& R_C1_C0,
+                                      const std::optional<Eigen::Quaterniond>& R_now_then,
                                       double threshold) {
   std::vector<bool> inliers(pairs.size(), true);
   if (pairs.size() < kMinPairs) return inliers;
   const double coarse = kCoarseFactor * threshold;
-  const Eigen::Matrix3d R = R_C1_C0 ? R_C1_C0->toRotationMatrix() : FitRotation(pairs, coarse);
-  EpipolarGeometry geometry = FindGeometry(pairs, R, R_C1_C0.has_value(), coarse);
+  const Eigen::Matrix3d R =
+      R_now_then ? R_now_then->toRotationMatrix() : FitRotation(pairs, coarse);
+  EpipolarGeometry geometry = FindGeometry(pairs, R, R_now_then.has_value(), coarse);
   for (const double scale : {coarse, coarse, threshold, threshold, threshold}) {
     geometry = Refine(pairs, geometry, scale);
   }

@@ -24,7 +24,7 @@ struct PointNodeTraits {
 
   static std::string Finding(const PointTracker& tracker) {
     const std::string still_parts = tracker.StillPartsFinding();
-    return still_parts.empty() ? tracker.SecondCameraFinding() : still_parts;
+    return still_parts.empty() ? tracker.PairFinding() : still_parts;
   }
   static Settings ToSettings(const Config& config) {
     Settings settings = Settings::__getDefault__();  // initializes its groups as well

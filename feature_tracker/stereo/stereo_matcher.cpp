@@ -6,14 +6,15 @@
 
 #include "common/camera/image_format.h"
 #include "common/format.h"
-#include "feature_tracker/ray_mask.h"
+#include "feature_tracker/detection/ray_mask.h"
 #include "tracking/stereo/epipolar_search.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr double kNearest = 0.3;      // [m]
-constexpr double kInfinity_px = 5.0;  // tolerance beyond infinity, since the mounting may be turned
+constexpr double kNearest = 0.3;  // [m]
+constexpr double kInfinity_px =
+    5.0;  // tolerance beyond infinity, since the extrinsics may be turned
 constexpr double kMaxBand_px = 4.5;
 constexpr double kReturn_px = 1.5;       // largest distance of the backward match from the corner
 constexpr double kBack_px = 16.0;        // range of the backward search around the corner
@@ -25,7 +26,7 @@ constexpr double kMaxDelay = 1e-3;                   // [s]; smaller delays are 
 constexpr double kMinFoundShare = 0.15;
 constexpr double kShareGain = 0.1;  // weight of one image in the mean shares
 constexpr size_t kMinSearches = 8;
-constexpr int64_t kSettlingImages = 3;  // until the estimated mounting and delay have settled
+constexpr int64_t kSettlingImages = 3;  // until the estimated extrinsics and delay have settled
 // Intervals [images] at which tracks without a match are searched for, and matches are confirmed.
 constexpr int kRetryInterval = 4;
 constexpr int kConfirmInterval = 16;
@@ -35,31 +36,28 @@ Eigen::Vector2d PixelOf(const PointTrack& track) { return {track.uv_px.x, track.
 }  // namespace
 
 StereoMatcher::StereoMatcher(const CameraPair& pair)
-    : stated_(pair), pair_(pair), mounting_(pair.T_C1_C(), pair.second().FocalLength()) {}
+    : stated_(pair), pair_(pair), extrinsics_(pair.T_S_C(), pair.second().FocalLength()) {}
 
-void StereoMatcher::CheckRight(const cv::Mat& right) const {
-  CheckImageFormat(right, pair_.second().parameters());
+void StereoMatcher::CheckImage(const cv::Mat& second) const {
+  CheckImageFormat(second, pair_.second().parameters());
 }
 
-void StereoMatcher::Match(const cv::Mat& left, const cv::Mat& right,
+void StereoMatcher::Match(const cv::Mat& first, const cv::Mat& second,
                           std::vector<PointTrack>* tracks) {
   ++unsearched_;
-  for (PointTrack& track : *tracks) {
-    track.right.reset();
-    track.right_search = right.empty() ? RightSearch::kNoImage : RightSearch::kNotDue;
-  }
-  if (right.empty()) return;
+  for (PointTrack& track : *tracks) track.second.reset();
+  if (second.empty()) return;
   ++searched_;
   std::vector<Search> searches;
   std::vector<StereoMatch> matches;
   for (PointTrack& track : *tracks) {
     if (!IsDue(track)) continue;
-    searches.push_back({&track, Find({left, right}, track)});
+    searches.push_back({&track, Find({first, second}, track)});
     const auto& place = searches.back().place;
     if (place && !IsBehind(*place)) matches.push_back(place->match);
   }
-  mounting_.Update(matches);
-  pair_ = stated_.With(mounting_.T_C1_C());
+  extrinsics_.Update(matches);
+  pair_ = stated_.With(extrinsics_.T_S_C());
   Judge(&searches);
   unsearched_ = 0;
 }
@@ -77,11 +75,8 @@ void StereoMatcher::Judge(std::vector<Search>* searches) {
   Shares sum;
   for (Search& search : *searches) {
     const bool is_behind = search.place && IsBehind(*search.place);
-    const bool is_good = search.place && !is_behind && mounting_.Accepts(search.place->match);
-    search.track->right_search = is_good        ? RightSearch::kFound
-                                 : search.place ? RightSearch::kOffEpipolar
-                                                : RightSearch::kNotFound;
-    sum.found += is_good;
+    search.is_good = search.place && !is_behind && extrinsics_.Accepts(search.place->match);
+    sum.found += search.is_good;
     sum.behind += is_behind;
   }
   if (searches->size() >= kMinSearches) {
@@ -93,13 +88,9 @@ void StereoMatcher::Judge(std::vector<Search>* searches) {
   }
   for (Search& search : *searches) {
     search.track->inverse_depth.reset();
-    if (search.track->right_search != RightSearch::kFound) continue;
-    if (IsTrusted()) {
-      search.track->inverse_depth = search.place->inverse_depth;
-      search.track->right = InTime(search.place->match);
-    } else {
-      search.track->right_search = RightSearch::kOffEpipolar;
-    }
+    if (!search.is_good || !IsTrusted()) continue;
+    search.track->inverse_depth = search.place->inverse_depth;
+    search.track->second = {InTime(search.place->match), search.place->pixel};
   }
 }
 
@@ -115,14 +106,15 @@ std::optional<StereoMatcher::Place> StereoMatcher::FindAnywhere(const Images& im
   const double behind = MayBeSwapped() ? 1 / kNearest : kInfinity_px * pair_.InverseDepthPerPixel();
   const SearchRange range{-behind, 1 / kNearest, Band(track)};
   const SearchedPoint point{PixelOf(track), WhenSeen(track)};
-  const auto seed = SearchAlongCurve(pair_, images.left, point, images.right, range);
+  const auto seed = SearchAlongCurve(pair_, images.first, point, images.second, range);
   auto place = seed ? Align(images, *seed, track) : std::nullopt;
   if (!place) return std::nullopt;
   const SearchedPoint match{place->pixel, InTime(place->match)};
   const double nearby = kBack_px * pair_.InverseDepthPerPixel();
   const SearchRange back_range{place->inverse_depth - nearby, place->inverse_depth + nearby,
                                range.band_px};
-  const auto back = SearchAlongCurve(pair_.Swapped(), images.right, match, images.left, back_range);
+  const auto back =
+      SearchAlongCurve(pair_.Swapped(), images.second, match, images.first, back_range);
   if (!back || (back->pixel - point.pixel).cwiseAbs().maxCoeff() > kReturn_px) return std::nullopt;
   return place;
 }
@@ -135,20 +127,20 @@ std::optional<StereoMatcher::Place> StereoMatcher::FindAgain(const Images& image
 
 // Returns the point in the first camera at the time when the second camera exposes.
 Eigen::Vector2d StereoMatcher::WhenSeen(const PointTrack& track) const {
-  return IsLate() ? Eigen::Vector2d(track.xy + mounting_.delay() * track.velocity) : track.xy;
+  return IsLate() ? Eigen::Vector2d(track.xy + extrinsics_.delay() * track.velocity) : track.xy;
 }
 
 Eigen::Vector2d StereoMatcher::InTime(const StereoMatch& match) const {
-  return IsLate() ? mounting_.WithoutDelay(match) : match.xy_C1;
+  return IsLate() ? extrinsics_.WithoutDelay(match) : match.xy_S;
 }
 
-bool StereoMatcher::IsLate() const { return std::abs(mounting_.delay()) > kMaxDelay; }
+bool StereoMatcher::IsLate() const { return std::abs(extrinsics_.delay()) > kMaxDelay; }
 
 // The first images may show less of a fault than there is: their matches are not used then.
 bool StereoMatcher::IsTrusted() const {
   if (searched_ < kSettlingImages && !Finding().empty()) return false;
   return (!shares_ || shares_->found > kMinFoundShare) &&
-         std::abs(mounting_.delay()) < kLargestDelay;
+         std::abs(extrinsics_.delay()) < kLargestDelay;
 }
 
 bool StereoMatcher::IsSwapped() const { return shares_ && shares_->behind > kMinFoundShare; }
@@ -158,22 +150,26 @@ bool StereoMatcher::MayBeSwapped() const {
 }
 
 std::string StereoMatcher::Finding() const {
+  const auto& [first, second] = stated_.numbers();
   if (IsSwapped()) {
-    return "the cameras seem to be swapped; check image_topic, image1_topic and body_T_cam1";
+    return Format("cameras %d and %d seem to be swapped; check %s, %s and %s", first, second,
+                  TopicKey(first).c_str(), TopicKey(second).c_str(), TransformKey(second).c_str());
   }
   if (shares_ && shares_->found <= kMinFoundShare) {
-    return "hardly any point is found again in the second camera; check that image_topic and "
-           "image1_topic are not swapped, body_T_cam1, and that both cameras are triggered "
-           "together";
+    return Format(
+        "hardly any point of camera %d is found again in camera %d; check that %s and %s are not "
+        "swapped, %s, and that both cameras are triggered together",
+        first, second, TopicKey(first).c_str(), TopicKey(second).c_str(),
+        TransformKey(second).c_str());
   }
-  if (std::abs(mounting_.delay()) > kReportedDelay) {
-    return Format("the second camera is %.1f ms late against its timestamps; trigger both together",
-                  1e3 * mounting_.delay());
+  if (std::abs(extrinsics_.delay()) > kReportedDelay) {
+    return Format("camera %d is %.1f ms late against its timestamps; trigger all cameras together",
+                  second, 1e3 * extrinsics_.delay());
   }
-  const double angle = mounting_.rotation().norm();
+  const double angle = extrinsics_.rotation().norm();
   if (angle < kReportedAngle) return "";
-  return Format("the second camera is turned by %.2f deg against body_T_cam1; calibrate it anew",
-                angle * 180 / M_PI);
+  return Format("camera %d is turned by %.2f deg against %s; calibrate it anew", second,
+                angle * 180 / M_PI, TransformKey(second).c_str());
 }
 
 bool StereoMatcher::IsTurn(const PointTrack& track, int interval) const {
@@ -185,15 +181,15 @@ std::optional<StereoMatcher::Place> StereoMatcher::Align(const Images& images,
                                                          const PointTrack& track) const {
   const auto warp = pair_.Warp(WhenSeen(track), seed.inverse_depth);
   if (!warp) return std::nullopt;
-  auto pose = track.patch->Align(images.right, {*warp * track.patch_linear, seed.pixel});
+  auto pose = track.patch->Align(images.second, {*warp * track.patch_linear, seed.pixel});
   if (!pose) {  // the corner may look different by now
-    const auto patch = CornerPatch::Cut(images.left, PixelOf(track));
-    if (patch) pose = patch->Align(images.right, {*warp, seed.pixel});
+    const auto patch = CornerPatch::Cut(images.first, PixelOf(track));
+    if (patch) pose = patch->Align(images.second, {*warp, seed.pixel});
   }
   if (!pose) return std::nullopt;
-  const auto xy_C1 = RayOf(pair_.second(), pose->center);
-  if (!xy_C1) return std::nullopt;
-  const StereoMatch match{track.xy, track.velocity, *xy_C1};
+  const auto xy_S = RayOf(pair_.second(), pose->center);
+  if (!xy_S) return std::nullopt;
+  const StereoMatch match{track.xy, track.velocity, *xy_S};
   return Place{match, pose->center, pair_.InverseDepth(track.xy, InTime(match))};
 }
 
@@ -204,9 +200,9 @@ bool StereoMatcher::IsBehind(const Place& place) const {
 double StereoMatcher::Band(const PointTrack& track) const {
   double deviation_px = 0;
   for (const double inverse_depth : {0.0, 1 / kNearest}) {
-    const auto xy_C1 = pair_.Transfer(WhenSeen(track), inverse_depth);
-    if (!xy_C1) return kMaxBand_px;
-    deviation_px = std::max(deviation_px, mounting_.Deviation({track.xy, track.velocity, *xy_C1}));
+    const auto xy_S = pair_.Transfer(WhenSeen(track), inverse_depth);
+    if (!xy_S) return kMaxBand_px;
+    deviation_px = std::max(deviation_px, extrinsics_.Deviation({track.xy, track.velocity, *xy_S}));
   }
   return std::min(2 * deviation_px, kMaxBand_px);
 }

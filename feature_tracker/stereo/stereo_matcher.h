@@ -8,29 +8,30 @@
 #include <string>
 #include <vector>
 
-#include "feature_tracker/point_track.h"
+#include "feature_tracker/following/point_track.h"
 #include "tracking/stereo/camera_pair.h"
-#include "tracking/stereo/mounting_estimate.h"
+#include "tracking/stereo/extrinsics_estimate.h"
 
 namespace plm_vins {
 
 // Finds tracked corners in the image of the second camera. Correlates along the epipolar curve,
-// from beyond infinity to 0.3 m, and requires a unique match that also holds from right to left.
+// from beyond infinity to 0.3 m, and requires a unique match that also holds backwards.
 // The match is then aligned with the patch of the track and gated by its distance from the epipolar
-// curve. The mounting may be off by half a degree, and the second camera late by some milliseconds.
-// Both are learned from the matches. Matches are shifted to the first camera's timestamp.
+// curve. The extrinsics may be off by half a degree, and the second camera late by some
+// milliseconds. Both are learned from the matches. Matches are shifted to the first camera's
+// timestamp.
 class StereoMatcher {
  public:
   explicit StereoMatcher(const CameraPair& pair);
 
   // Throws std::invalid_argument if the image is not CV_8UC1 of the calibrated size.
-  void CheckRight(const cv::Mat& right) const;
+  void CheckImage(const cv::Mat& second) const;
 
-  // Searches in `right` for the tracks of the image `left` with the same timestamp, both CV_8UC1 as
-  // delivered by the cameras. Sets the tracks' `right` and `right_search`.
-  void Match(const cv::Mat& left, const cv::Mat& right, std::vector<PointTrack>* tracks);
+  // Searches in `second` for the tracks of the image `first` with the same timestamp, both CV_8UC1
+  // as delivered by the cameras. Sets the tracks' `second`; resets it if there is no image.
+  void Match(const cv::Mat& first, const cv::Mat& second, std::vector<PointTrack>* tracks);
 
-  const MountingEstimate& mounting() const { return mounting_; }
+  const ExtrinsicsEstimate& extrinsics() const { return extrinsics_; }
 
   // Describes what seems to be wrong with the second camera, and what to do; empty if nothing is.
   std::string Finding() const;
@@ -43,12 +44,13 @@ class StereoMatcher {
     double inverse_depth = 0;
   };
   struct Images {
-    const cv::Mat& left;
-    const cv::Mat& right;
+    const cv::Mat& first;
+    const cv::Mat& second;
   };
   struct Search {
     PointTrack* track;
     std::optional<Place> place;
+    bool is_good = false;  // fits the epipolar curve
   };
   bool IsDue(const PointTrack& track) const;
   void Judge(std::vector<Search>* searches);
@@ -65,13 +67,14 @@ class StereoMatcher {
   bool IsSwapped() const;     // points are matched behind the cameras
   bool MayBeSwapped() const;  // then points are also searched for there
   bool IsTurn(const PointTrack& track, int interval) const;
-  bool IsBehind(const Place& place) const;  // beyond infinity by more than mounting errors explain
+  bool IsBehind(
+      const Place& place) const;  // beyond infinity by more than extrinsics errors explain
   // Search range to both sides of the epipolar curve of a track, from infinity to the least depth.
   double Band(const PointTrack& track) const;
 
   CameraPair stated_;
-  CameraPair pair_;  // with the estimated mounting
-  MountingEstimate mounting_;
+  CameraPair pair_;  // with the estimated extrinsics
+  ExtrinsicsEstimate extrinsics_;
   // Shares of the searches in the last images.
   struct Shares {
     double found = 0;

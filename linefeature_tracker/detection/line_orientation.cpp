@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linefeature_tracker/detection/line_orientation.h"
 
-#include "tracking/image_sampling.h"
+#include "tracking/images/image_sampling.h"
 
 namespace plm_vins {
 namespace {

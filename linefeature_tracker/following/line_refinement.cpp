@@ -10,7 +10,7 @@
 #include "common/median.h"
 #include "linefeature_tracker/segments/line_offset.h"
 #include "linefeature_tracker/segments/line_profile.h"
-#include "tracking/image_mask.h"
+#include "tracking/images/image_mask.h"
 
 namespace plm_vins {
 namespace {

@@ -26,7 +26,7 @@ struct LineNodeTraits {
   static constexpr bool kEveryImage = true;
   static constexpr bool kUsesDepth = false;
 
-  // The point tracker judges the second camera.
+  // The point tracker judges the pairs of cameras.
   static std::string Finding(const LineTracker&) { return ""; }
   static Settings ToSettings(const Config& config) {
     Settings settings = Settings::__getDefault__();  // initializes its groups as well

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
-#include "tracking/image_sampling.h"
+#include "tracking/images/image_sampling.h"
 
 namespace plm_vins {
 

@@ -11,8 +11,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kNearest = 0.3;      // [m]
-constexpr double kInfinity_px = 5.0;  // tolerance beyond infinity, since the mounting may be turned
+constexpr double kNearest = 0.3;  // [m]
+constexpr double kInfinity_px =
+    5.0;  // tolerance beyond infinity, since the extrinsics may be turned
 constexpr double kAgreement_px = 2.0;
 constexpr size_t kMinAgreeing = 4;
 constexpr std::array<double, 5> kShares = {0.1, 0.3, 0.5, 0.7, 0.9};
@@ -25,7 +26,7 @@ constexpr double kMinCrossing = 0.25;  // sine of the angle between line and epi
 constexpr double kMinFirstCrossing = 0.5 * kMinCrossing;
 constexpr int kSearch_px = 3;  // across the predicted line
 // Standard deviations of an edge, and of the shift of the image across the epipolar curves due to
-// errors of lens and mounting.
+// errors of lens and extrinsics.
 constexpr double kEdge_px = 0.3;
 constexpr double kEpipolar_px = 0.5;
 
@@ -40,22 +41,23 @@ double Crossing(const LineSegment& segment, const Eigen::Vector3d& baseline) {
 
 LineStereo::LineStereo(const LineTrackerConfig& config, const CameraPair& pair)
     : pair_(pair),
-      p_C_C1_(pair.T_C1_C().Inverse().translation),
+      p_C_S_(pair.T_S_C().Inverse().translation),
       refinement_(config, pair.second_camera()) {}
 
-void LineStereo::CheckRight(const cv::Mat& right) const {
-  CheckImageFormat(right, pair_.second().parameters());
+void LineStereo::CheckImage(const cv::Mat& second) const {
+  CheckImageFormat(second, pair_.second().parameters());
 }
 
-void LineStereo::Match(const cv::Mat& left, const cv::Mat& right, std::vector<LineTrack>* tracks) {
+void LineStereo::Match(const cv::Mat& first, const cv::Mat& second,
+                       std::vector<LineTrack>* tracks) {
   ++unsearched_;
-  for (LineTrack& track : *tracks) track.right.reset();
-  if (right.empty()) return;
+  for (LineTrack& track : *tracks) track.second.reset();
+  if (second.empty()) return;
   ++searched_;
   for (LineTrack& track : *tracks) {
     const bool is_new = track.length <= unsearched_;
     if (track.inverse_depths || is_new || IsTurn(track, kRetryInterval)) {
-      MatchOne({left, right}, &track);
+      MatchOne({first, second}, &track);
     }
   }
   unsearched_ = 0;
@@ -65,9 +67,9 @@ void LineStereo::MatchOne(const Images& images, LineTrack* track) const {
   const bool is_known = track->inverse_depths && !IsTurn(*track, kConfirmInterval);
   if (!is_known) track->inverse_depths = FindDepths(images, track->segment);
   if (!track->inverse_depths) return;
-  track->right = Locate(images.right, track->segment, *track->inverse_depths);
-  if (track->right) {
-    track->inverse_depths = DepthsBy(*track->right, track->segment);
+  track->second = Locate(images.second, track->segment, *track->inverse_depths);
+  if (track->second) {
+    track->inverse_depths = DepthsBy(track->second->segment, track->segment);
   } else {
     track->inverse_depths.reset();
   }
@@ -77,19 +79,19 @@ bool LineStereo::IsTurn(const LineTrack& track, int interval) const {
   return (track.id + searched_) % interval == 0;
 }
 
-// Intersects the rays R x + rho t of the ends with the plane through the line and camera C1.
-Eigen::Vector2d LineStereo::DepthsBy(const RightSegment& right, const LineSegment& segment) const {
-  const Eigen::Vector3d normal = right.start.homogeneous().cross(right.end.homogeneous());
-  const double slope = normal.dot(pair_.T_C1_C().translation);
+// Intersects the rays R x + rho t of the ends with the plane through the line and camera S.
+Eigen::Vector2d LineStereo::DepthsBy(const LineSegment& second, const LineSegment& segment) const {
+  const Eigen::Vector3d normal = second.start.homogeneous().cross(second.end.homogeneous());
+  const double slope = normal.dot(pair_.T_S_C().translation);
   const auto inverse_depth = [&](const Eigen::Vector2d& xy) {
-    return -normal.dot(pair_.T_C1_C().rotation * xy.homogeneous()) / slope;
+    return -normal.dot(pair_.T_S_C().rotation * xy.homogeneous()) / slope;
   };
   return {inverse_depth(segment.start), inverse_depth(segment.end)};
 }
 
 std::optional<Eigen::Vector2d> LineStereo::FindDepths(const Images& images,
                                                       const LineSegment& segment) const {
-  if (Crossing(segment, p_C_C1_) < kMinFirstCrossing) return std::nullopt;
+  if (Crossing(segment, p_C_S_) < kMinFirstCrossing) return std::nullopt;
   std::vector<LineDepth> samples;
   for (size_t i = 0; i < kShares.size(); ++i) {
     const auto inverse_depth = DepthAt(images, segment, kShares[i]);
@@ -108,7 +110,7 @@ std::optional<double> LineStereo::DepthAt(const Images& images, const LineSegmen
   if (!pixel) return std::nullopt;
   point.pixel = *pixel;
   const SearchRange range{-kInfinity_px * pair_.InverseDepthPerPixel(), 1 / kNearest, 0};
-  const auto place = SearchAlongCurve(pair_, images.left, point, images.right, range);
+  const auto place = SearchAlongCurve(pair_, images.first, point, images.second, range);
   return place ? std::optional(place->inverse_depth) : std::nullopt;
 }
 
@@ -140,20 +142,20 @@ std::optional<Eigen::Vector2d> LineStereo::Agree(const std::vector<LineDepth>& s
   return H.inverse() * b;
 }
 
-std::optional<RightSegment> LineStereo::Locate(const cv::Mat& right, const LineSegment& segment,
-                                               const Eigen::Vector2d& inverse_depths) const {
+std::optional<SecondSegment> LineStereo::Locate(const cv::Mat& second, const LineSegment& segment,
+                                                const Eigen::Vector2d& inverse_depths) const {
   const auto start = pair_.Transfer(segment.start, inverse_depths[0]);
   const auto end = pair_.Transfer(segment.end, inverse_depths[1]);
   if (!start || !end) return std::nullopt;
   const LineSegment predicted{*start, *end};
-  const double crossing = Crossing(predicted, pair_.T_C1_C().translation);
+  const double crossing = Crossing(predicted, pair_.T_S_C().translation);
   if (!(crossing > kMinCrossing)) return std::nullopt;
-  const auto found = refinement_.Refine(right, predicted, kSearch_px);
+  const auto found = refinement_.Refine(second, predicted, kSearch_px);
   if (!found) return std::nullopt;
   const double deviation =
       std::hypot(kEdge_px, kEpipolar_px * std::sqrt(std::max(1 - crossing * crossing, 0.0))) /
       pair_.second().FocalLength();
-  return RightSegment{found->start, found->end, Eigen::Vector2d::Constant(deviation)};
+  return SecondSegment{*found, deviation};
 }
 
 }  // namespace plm_vins

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "common/config/config.h"
-#include "common/measurements.h"
 #include "linefeature_tracker/following/line_refinement.h"
-#include "linefeature_tracker/line_track.h"
+#include "linefeature_tracker/segments/line_track.h"
 #include "tracking/stereo/camera_pair.h"
 
 namespace plm_vins {
@@ -25,16 +24,16 @@ class LineStereo {
   LineStereo(const LineTrackerConfig& config, const CameraPair& pair);
 
   // Throws std::invalid_argument if the image is not CV_8UC1 of the calibrated size.
-  void CheckRight(const cv::Mat& right) const;
+  void CheckImage(const cv::Mat& second) const;
 
-  // Searches in `right` for the tracks of the image `left` with the same timestamp, both CV_8UC1 as
-  // delivered by the cameras. Sets the tracks' `right` and `inverse_depths`.
-  void Match(const cv::Mat& left, const cv::Mat& right, std::vector<LineTrack>* tracks);
+  // Searches in `second` for the tracks of the image `first` with the same timestamp, both CV_8UC1
+  // as delivered by the cameras. Sets the tracks' `second` and `inverse_depths`.
+  void Match(const cv::Mat& first, const cv::Mat& second, std::vector<LineTrack>* tracks);
 
  private:
   struct Images {
-    const cv::Mat& left;
-    const cv::Mat& right;
+    const cv::Mat& first;
+    const cv::Mat& second;
   };
   // Inverse depth at a fraction of the way from the start of a line to its end [1/m].
   struct LineDepth {
@@ -48,13 +47,13 @@ class LineStereo {
   // Inverse depth of the point at a share of the way from start to end [1/m].
   std::optional<double> DepthAt(const Images& images, const LineSegment& segment,
                                 double share) const;
-  Eigen::Vector2d DepthsBy(const RightSegment& right, const LineSegment& segment) const;
+  Eigen::Vector2d DepthsBy(const LineSegment& second, const LineSegment& segment) const;
   std::optional<Eigen::Vector2d> Agree(const std::vector<LineDepth>& samples) const;
-  std::optional<RightSegment> Locate(const cv::Mat& right, const LineSegment& segment,
-                                     const Eigen::Vector2d& inverse_depths) const;
+  std::optional<SecondSegment> Locate(const cv::Mat& second, const LineSegment& segment,
+                                      const Eigen::Vector2d& inverse_depths) const;
 
   CameraPair pair_;
-  Eigen::Vector3d p_C_C1_;  // position of the second camera
+  Eigen::Vector3d p_C_S_;  // position of the second camera
   LineRefinement refinement_;
   int64_t searched_ = 0;  // images
   int unsearched_ = 0;    // images of the first camera since then

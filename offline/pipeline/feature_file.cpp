@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "offline/pipeline/feature_file.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,37 +12,9 @@ namespace plm_vins {
 namespace {
 
 constexpr char kKind[] = "plm_features v";
-constexpr char kVersion[] = "2\n";
+constexpr char kVersion[] = "3\n";
 
-enum class ItemKind : uint8_t {
-  kImu = 1,
-  kPoints = 2,
-  kPointsAndLines = 3,
-  // The next kinds include the observations in the second camera and the measured depths.
-  kPointsWithCompanions = 4,
-  kPointsAndLinesWithCompanions = 5,
-};
-
-bool HasLines(ItemKind kind) {
-  return kind == ItemKind::kPointsAndLines || kind == ItemKind::kPointsAndLinesWithCompanions;
-}
-
-bool HasCompanions(ItemKind kind) {
-  return kind == ItemKind::kPointsWithCompanions || kind == ItemKind::kPointsAndLinesWithCompanions;
-}
-
-ItemKind KindOf(const TrackedFeatures& frame) {
-  const auto& points = frame.points.features.points;
-  bool companions = std::any_of(points.begin(), points.end(), [](const PointObservation& point) {
-    return point.right_search != RightSearch::kNotDue || point.depth;
-  });
-  if (!frame.lines) return companions ? ItemKind::kPointsWithCompanions : ItemKind::kPoints;
-  const auto& lines = frame.lines->features.lines;
-  companions =
-      companions || std::any_of(lines.begin(), lines.end(),
-                                [](const LineObservation& line) { return line.right.has_value(); });
-  return companions ? ItemKind::kPointsAndLinesWithCompanions : ItemKind::kPointsAndLines;
-}
+enum class ItemKind : uint8_t { kImu = 1, kPoints = 2, kPointsAndLines = 3 };
 
 // Layouts for reading and writing; Struct is const for writing.
 template <typename Archive, typename Struct>
@@ -63,7 +34,8 @@ void Points(Archive* archive, Struct& tracked) {
   Values(archive, s.previous, s.flow_lost, s.forward_backward, s.epipolar_outliers, s.crowded,
          s.detected);
   archive->List(tracked.features.points, [](auto* a, auto& point) {
-    Values(a, point.id, point.xy, point.uv_px, point.velocity);
+    Values(a, point.id, point.camera, point.xy, point.uv_px, point.velocity);
+    if (a->Has(point.depth)) Values(a, *point.depth);
   });
 }
 
@@ -73,23 +45,9 @@ void Lines(Archive* archive, Struct& tracked) {
   auto& s = tracked.statistics;
   Values(archive, s.previous, s.match_lost, s.inconsistent, s.edge_lost, s.duplicates, s.detected,
          s.fragments, s.candidates, s.added, s.detection_ms);
-  archive->List(tracked.features.lines,
-                [](auto* a, auto& line) { Values(a, line.id, line.start, line.end); });
-}
-
-// One for each point and line of the item, in their order.
-template <typename Archive, typename Struct>
-void Companions(Archive* archive, Struct& frame) {
-  for (auto& point : frame.points.features.points) {
-    archive->Value(point.right_search);
-    if (archive->Has(point.right)) Values(archive, *point.right);
-    if (archive->Has(point.depth)) Values(archive, *point.depth);
-  }
-  if (!frame.lines) return;
-  for (auto& line : frame.lines->features.lines) {
-    if (!archive->Has(line.right)) continue;
-    Values(archive, line.right->start, line.right->end, line.right->deviation);
-  }
+  archive->List(tracked.features.lines, [](auto* a, auto& line) {
+    Values(a, line.id, line.camera, line.start, line.end, line.deviation);
+  });
 }
 
 template <typename Archive, typename String>
@@ -124,8 +82,7 @@ void RequirePossible(std::vector<Observation>* observations) {
 
 void ReadFrame(BinaryReader* input, ItemKind kind, TrackedFeatures* frame) {
   Points(input, frame->points);
-  if (HasLines(kind)) Lines(input, frame->lines.emplace());
-  if (HasCompanions(kind)) Companions(input, *frame);
+  if (kind == ItemKind::kPointsAndLines) Lines(input, frame->lines.emplace());
   RequireStamp(frame->points.features.t_ns);
   RequirePossible(&frame->points.features.points);
   if (!frame->lines) return;
@@ -151,11 +108,9 @@ void FeatureFileWriter::Add(const TrackedItem& item) {
     return;
   }
   const TrackedFeatures& frame = *item.frame;
-  const ItemKind kind = KindOf(frame);
-  output.Value(kind);
+  output.Value(frame.lines ? ItemKind::kPointsAndLines : ItemKind::kPoints);
   Points(&output, frame.points);
   if (frame.lines) Lines(&output, *frame.lines);
-  if (HasCompanions(kind)) Companions(&output, frame);
 }
 
 void FeatureFileWriter::Close() { file_.Commit(); }
@@ -203,7 +158,7 @@ std::optional<TrackedItem> FeatureFileReader::Next() {
       RequireStamp(item.imu.t_ns);
       return item;
     }
-    if (kind < ItemKind::kImu || kind > ItemKind::kPointsAndLinesWithCompanions) {
+    if (kind < ItemKind::kImu || kind > ItemKind::kPointsAndLines) {
       throw std::runtime_error("is damaged");
     }
     item.frame = std::make_unique<TrackedFeatures>();

@@ -15,19 +15,14 @@ void FeatureTrackers::AddImu(const ImuSample& sample) {
   if (lines_) lines_->AddImu(sample);
 }
 
-void FeatureTrackers::AddImage(const ImageSample& image) {
-  points_.AddImage(image);
-  if (lines_) lines_->AddImage(image);
-}
-
-void FeatureTrackers::AddRight(const ImageSample& image) {
-  points_.AddRight(image);
-  if (lines_) lines_->AddRight(image);
+void FeatureTrackers::AddImage(int camera, const ImageSample& image) {
+  points_.AddImage(camera, image);
+  if (lines_) lines_->AddImage(camera, image);
 }
 
 void FeatureTrackers::AddDepth(const DepthSample& image) {
   points_.AddDepth(image);
-  if (lines_) lines_->AddDepth(image);  // both trackers then wait for the same companions
+  if (lines_) lines_->AddDepth(image);  // both trackers then wait for the same images
 }
 
 template <typename TrackOne>

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "common/config/config.h"
-#include "common/image_companions.h"
 #include "common/measurements.h"
 #include "feature_tracker/point_tracking_stage.h"
 #include "linefeature_tracker/line_tracking_stage.h"
@@ -29,19 +28,20 @@ class FeatureTrackers {
   void TrackSideBySide(bool side_by_side) { side_by_side_ = side_by_side; }
 
   void AddImu(const ImuSample& sample);
-  void AddImage(const ImageSample& image);
-  void AddRight(const ImageSample& image);
+  void AddImage(int camera, const ImageSample& image);
   void AddDepth(const DepthSample& image);
   std::optional<TrackedFeatures> Pop();
   std::optional<TrackedFeatures> Flush();
 
-  std::string SecondCameraFinding() const { return points_.tracker().SecondCameraFinding(); }
-  std::string StillPartsFinding() const { return points_.tracker().StillPartsFinding(); }
+  std::string PairFinding() const { return points_.Finding(&PointTracker::PairFinding); }
+  std::string StillPartsFinding() const {
+    return points_.Finding(&PointTracker::StillPartsFinding);
+  }
   const ImageCounts& image_counts() const { return points_.counts(); }
 
-  // The newest image with its points or lines drawn (CV_8UC3); empty if there are none.
-  cv::Mat DrawPoints() const { return points_.tracker().DrawTracks(); }
-  cv::Mat DrawLines() const { return lines_ ? lines_->tracker().DrawTracks() : cv::Mat(); }
+  // The newest image of camera 0 with its points or lines drawn (CV_8UC3); empty if there are none.
+  cv::Mat DrawPoints() const { return points_.DrawTracks(); }
+  cv::Mat DrawLines() const { return lines_ ? lines_->DrawTracks() : cv::Mat(); }
 
  private:
   template <typename TrackOne>

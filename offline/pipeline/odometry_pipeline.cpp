@@ -29,7 +29,7 @@ void ReleasePixels(TrackedFeatures* frame) {
 
 RecordingEvent EventOf(const TrackedItem& item) {
   using Kind = RecordingEvent::Kind;
-  return {item.frame ? Kind::kImage : Kind::kImu, item.t_ns(), item.imu};
+  return {item.frame ? Kind::kImage : Kind::kImu, item.t_ns(), item.imu, 0};
 }
 
 }  // namespace
@@ -37,8 +37,8 @@ RecordingEvent EventOf(const TrackedItem& item) {
 OdometryPipeline::OdometryPipeline(const Config& config)
     : use_lines_(config.use_lines),
       keeps_pixels_(config.pose_graph.loop_closure),
-      image_topic_(config.sensor.image_topic),
-      right_schedule_(config.publish_rate),
+      image_topic_(config.sensor.cameras[0].image_topic),
+      schedule_(config),
       trackers_(config),
       back_end_(config) {}
 
@@ -58,9 +58,8 @@ std::vector<std::string> OdometryPipeline::Findings() const {
   std::vector<std::string> findings;
   const bool is_contradicted = contradicted_images_ >= kMinContradicted;
   for (const std::string& finding :
-       {InputFinding(), StillPartsFinding(), trackers_.SecondCameraFinding(),
-        back_end_.LensWarning(), is_contradicted ? imu_contradiction_ : "",
-        companion_faults_.finding().text}) {
+       {InputFinding(), StillPartsFinding(), trackers_.PairFinding(), back_end_.LensWarning(),
+        is_contradicted ? imu_contradiction_ : "", companion_faults_.finding().text}) {
     if (!finding.empty()) findings.push_back(finding);
   }
   return findings;
@@ -121,7 +120,8 @@ void OdometryPipeline::Read(Recording* recording, RecordingInterval interval,
 std::optional<cv::Mat> OdometryPipeline::Load(const RecordingEvent& event, Recording* recording) {
   using Kind = RecordingEvent::Kind;
   if (event.kind == Kind::kImu) return std::nullopt;
-  if (event.kind == Kind::kRightImage && !right_schedule_.IsDue(event.t_ns)) return cv::Mat();
+  const bool is_due = event.kind == Kind::kDepth || schedule_.IsDue(event.camera, event.t_ns);
+  if (!is_due) return cv::Mat();
   return recording->LoadImage();
 }
 
@@ -147,7 +147,7 @@ bool OdometryPipeline::Feed(LoadedEvent loaded, const TrackedReceiver& emit) {
     if (!emit({event.imu, nullptr})) return false;
   } else if (loaded.image) {
     AddImage(event, std::move(*loaded.image));
-  } else if (event.kind == Kind::kImage) {
+  } else if (event.kind == Kind::kImage && event.camera == 0) {
     ++unreadable_images_;
   }
   while (auto frame = trackers_.Pop()) {
@@ -158,16 +158,13 @@ bool OdometryPipeline::Feed(LoadedEvent loaded, const TrackedReceiver& emit) {
 
 void OdometryPipeline::AddImage(const RecordingEvent& event, cv::Mat image) {
   using Kind = RecordingEvent::Kind;
-  if (event.kind == Kind::kRightImage) {
-    trackers_.AddRight({event.t_ns, std::move(image)});
-  } else if (event.kind == Kind::kDepth) {
-    trackers_.AddDepth({event.t_ns, std::move(image)});
-  } else {
+  if (event.kind == Kind::kDepth) return trackers_.AddDepth({event.t_ns, std::move(image)});
+  if (event.camera == 0) {
     first_image_.Add(event.t_ns);
     image_stamps_.Add(event.t_ns);
     stamp_faults_.Set(event.t_ns, image_stamps_.Finding("image_topic " + image_topic_));
-    trackers_.AddImage({event.t_ns, std::move(image)});
   }
+  trackers_.AddImage(event.camera, {event.t_ns, std::move(image)});
 }
 
 bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit) {

@@ -120,7 +120,7 @@ class OdometryPipeline {
   const bool use_lines_;
   const bool keeps_pixels_;
   const std::string image_topic_;
-  MatchSchedule right_schedule_;
+  MatchSchedule schedule_;
   FeatureTrackers trackers_;
   EstimationStage back_end_;
   std::function<bool()> is_end_ = [] { return false; };

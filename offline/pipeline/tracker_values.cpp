@@ -3,6 +3,7 @@
 
 #include <set>
 #include <variant>
+#include <vector>
 
 #include "common/config/camera_keys.h"
 
@@ -15,8 +16,13 @@ void AddNames(const ConfigKeys<Section>& keys, std::set<std::string>* names) {
 }
 
 std::set<std::string> NamesFor(const Config& config) {
-  std::set<std::string> names = {"freq", "use_lines"};
-  AddNames(CameraKeys(ModelType(config.sensor.camera.model)), &names);
+  std::set<std::string> names = {"freq", "use_lines", "num_of_cam", "stereo_pairs", "depth_topic"};
+  const std::vector<CameraSensor>& cameras = config.sensor.cameras;
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    for (const auto& key : CameraKeys(ModelType(cameras[i].parameters.model))) {
+      names.insert(CameraPrefix(static_cast<int>(i)) + key.name);
+    }
+  }
   AddNames(PointTrackerKeys(), &names);
   if (config.use_lines) AddNames(LineTrackerKeys(), &names);
   return names;

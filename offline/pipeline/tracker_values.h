@@ -10,7 +10,7 @@ namespace plm_vins {
 
 // Returns the configuration values that determine the features and have no effect if features are
 // given: those of the camera, of the trackers in use, and of the selection of images and features,
-// by key. (A few more keys of the rig affect the trackers' gyroscope prediction; these still have
+// by key. (Extrinsics and a few more keys affect where the trackers search; these still have
 // an effect, since the estimator uses them.)
 Json TrackerValues(const Config& config);
 

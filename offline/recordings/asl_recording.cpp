@@ -72,15 +72,15 @@ constexpr SortedRows<ImuSample>::Format kImuFormat = {
     "imu", "IMU sample", "stamp [ns],gyro x,y,z [rad/s],accelerometer x,y,z [m/s^2]", 6,
     ToImuSample};
 
-// The images of one folder: "cam0", "cam1" or "depth0".
+// The images of one folder: "cam0", "cam1", ... or "depth0".
 struct ImageStream {
-  RecordingEvent::Kind kind;
+  RecordingEvent event;  // without timestamp
   fs::path folder;
   SortedRows<ImageRow> rows;
 
-  ImageStream(RecordingEvent::Kind image_kind, const fs::path& root, const char* name,
+  ImageStream(const RecordingEvent& kind_of_event, const fs::path& root, const std::string& name,
               const char* key)
-      : kind(image_kind),
+      : event(kind_of_event),
         folder(root / name / "data"),
         rows(Require(root / name / "data.csv"), ImageFormat(key)) {}
 };
@@ -88,13 +88,18 @@ struct ImageStream {
 // Merges the csv files by timestamp. At the same time, IMU samples come first and cam0 last.
 class AslRecording : public Recording {
  public:
-  AslRecording(const std::string& folder, bool with_right, bool with_depth)
+  AslRecording(const std::string& folder, int cameras, bool with_depth)
       : name_(folder), imu_(Require(SensorRoot(folder) / "imu0" / "data.csv"), kImuFormat) {
     using Kind = RecordingEvent::Kind;
     const fs::path root = SensorRoot(folder);
-    if (with_right) images_.emplace_back(Kind::kRightImage, root, "cam1", "second_image");
-    if (with_depth) images_.emplace_back(Kind::kDepth, root, "depth0", "depth_image");
-    images_.emplace_back(Kind::kImage, root, "cam0", "image");
+    const RecordingEvent depth{Kind::kDepth, 0, {}};
+    if (with_depth) images_.emplace_back(depth, root, "depth0", "depth_image");
+    constexpr const char* kKeys[kMaxCameras] = {"image", "camera1_image", "camera2_image",
+                                                "camera3_image"};
+    for (int camera = cameras - 1; camera >= 0; --camera) {
+      const RecordingEvent event{Kind::kImage, 0, {}, camera};
+      images_.emplace_back(event, root, "cam" + std::to_string(camera), kKeys[camera]);
+    }
   }
 
   std::optional<RecordingEvent> Next() override {
@@ -111,13 +116,15 @@ class AslRecording : public Recording {
     }
     if (earliest == nullptr) return std::nullopt;
     const ImageRow& row = earliest->rows.Take();
-    current_kind_ = earliest->kind;
+    current_ = earliest;
     current_image_ = earliest->folder / row.file;
-    return RecordingEvent{current_kind_, row.t_ns, {}};
+    RecordingEvent event = earliest->event;
+    event.t_ns = row.t_ns;
+    return event;
   }
 
   std::optional<cv::Mat> LoadImage() override {
-    const bool is_depth = current_kind_ == RecordingEvent::Kind::kDepth;
+    const bool is_depth = current_->event.kind == RecordingEvent::Kind::kDepth;
     cv::Mat image = ReadImage(current_image_, is_depth ? cv::IMREAD_UNCHANGED : kReadGrayAsStored);
     if (!image.empty()) return image;
     unreadable_images_.Add(current_image_.string());
@@ -126,7 +133,9 @@ class AslRecording : public Recording {
 
   std::string name() const override { return name_; }
   std::string Source(RecordingEvent::Kind kind) const override {
-    return kind == RecordingEvent::Kind::kImage ? camera_rows().file() : imu_.file();
+    if (kind == RecordingEvent::Kind::kImu) return imu_.file();
+    return kind == RecordingEvent::Kind::kImage ? camera_rows().file()
+                                                : images_.front().rows.file();
   }
   std::optional<int64_t> end_ns() const override { return camera_rows().end_ns(); }
 
@@ -143,16 +152,15 @@ class AslRecording : public Recording {
   std::string name_;
   std::vector<ImageStream> images_;  // the last is cam0
   SortedRows<ImuSample> imu_;
-  RecordingEvent::Kind current_kind_ = RecordingEvent::Kind::kImage;
+  const ImageStream* current_ = nullptr;  // of the event that was returned last
   fs::path current_image_;
   DropCount unreadable_images_{"images_unreadable", 0, ""};
 };
 
 }  // namespace
 
-std::unique_ptr<Recording> OpenAslFolder(const std::string& folder, bool with_right,
-                                         bool with_depth) {
-  return std::make_unique<AslRecording>(folder, with_right, with_depth);
+std::unique_ptr<Recording> OpenAslFolder(const std::string& folder, int cameras, bool with_depth) {
+  return std::make_unique<AslRecording>(folder, cameras, with_depth);
 }
 
 }  // namespace plm_vins

@@ -13,14 +13,15 @@ namespace plm_vins {
 
 // One measurement of a recording. The pixels of an image are loaded separately, since that is slow.
 struct RecordingEvent {
-  enum class Kind { kImage, kImu, kRightImage, kDepth };
+  enum class Kind { kImage, kImu, kDepth };
   Kind kind = Kind::kImu;
   int64_t t_ns = 0;  // the sensor's timestamp
   ImuSample imu;     // if kind is kImu
+  int camera = 0;    // if kind is kImage
 };
 
-// Images and IMU samples of a recording, and, if requested, images of a second camera and of depth,
-// in the order of recording. Read on demand.
+// Images, IMU samples and, if requested, depth images of a recording, in the order of recording.
+// Read on demand.
 class Recording {
  public:
   virtual ~Recording() = default;
@@ -33,7 +34,8 @@ class Recording {
   virtual std::optional<cv::Mat> LoadImage() = 0;
 
   virtual std::string name() const = 0;  // for reports
-  // Origin of the images or IMU samples: a file, or a topic and its key.
+  // Origin of the images of camera 0, of the IMU samples or of the depth images: a file, or a topic
+  // and its key.
   virtual std::string Source(RecordingEvent::Kind kind) const = 0;
 
   // Approximate end of the recording; nullopt if not known in advance.

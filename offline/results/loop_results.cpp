@@ -35,7 +35,7 @@ std::optional<MapBundle> BundleOf(const Config& config, const CameraModel& camer
 LoopResults::LoopResults(const Config& config, const std::string& folder,
                          std::optional<KeyframeMap> map)
     : folder_(folder),
-      camera_(CameraModel::Create(config.sensor.camera)),
+      camera_(CameraModel::Create(config.sensor.cameras[0].parameters)),
       refined_camera_(camera_->parameters()),
       loops_(LoopCloserOptions(*camera_), camera_),
       bundle_(BundleOf(config, *camera_)),

@@ -16,6 +16,7 @@
 #include <system_error>
 #include <utility>
 
+#include "common/config/sensor_config.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
@@ -85,9 +86,8 @@ std::unique_ptr<rosbag::Bag> OpenBag(const std::string& file) {
 // merged by their recording time, whatever the order of the files.
 class BagRecording : public Recording {
  public:
-  BagRecording(const std::vector<std::string>& files, const std::string& image_topic,
-               const std::string& imu_topic, const std::string& right_topic,
-               const std::string& depth_topic)
+  BagRecording(const std::vector<std::string>& files, const std::vector<std::string>& image_topics,
+               const std::string& imu_topic, const std::string& depth_topic)
       : name_(Join(files)) {
     rosbag::View all;
     for (const std::string& file : files) {
@@ -99,23 +99,22 @@ class BagRecording : public Recording {
       topics.emplace(of->topic, of->datatype);
     }
     std::string missing;
-    const auto add = [&](RecordingEvent::Kind kind, const std::optional<TypedTopic>& found,
-                         const std::string& lack) {
-      if (found) kinds_[*found] = kind;
-      if (!found) missing += lack;
+    const auto add = [&](const Stream& stream, const std::string& topic, const std::string& type,
+                         const std::optional<TypedTopic>& found) {
+      if (found) streams_[*found] = stream;
+      if (!found) missing += Missing(stream.key, topic, type);
     };
     using Kind = RecordingEvent::Kind;
     const std::string any_image = kRaw + std::string(" or ") + kCompressed;
-    if (!right_topic.empty()) {
-      add(Kind::kRightImage, FindImages(topics, right_topic),
-          Missing("image1_topic", right_topic, any_image));
+    for (size_t i = 0; i < image_topics.size(); ++i) {
+      const int camera = static_cast<int>(i);
+      add({Kind::kImage, camera, TopicKey(camera)}, image_topics[i], any_image,
+          FindImages(topics, image_topics[i]));
     }
     if (!depth_topic.empty()) {
-      add(Kind::kDepth, Find(topics, depth_topic, kRaw), Missing("depth_topic", depth_topic, kRaw));
+      add({Kind::kDepth, 0, "depth_topic"}, depth_topic, kRaw, Find(topics, depth_topic, kRaw));
     }
-    add(Kind::kImage, FindImages(topics, image_topic),
-        Missing("image_topic", image_topic, any_image));
-    add(Kind::kImu, Find(topics, imu_topic, kImu), Missing("imu_topic", imu_topic, kImu));
+    add({Kind::kImu, 0, "imu_topic"}, imu_topic, kImu, Find(topics, imu_topic, kImu));
     if (!missing.empty()) {
       throw std::runtime_error(name_ + " has" + missing + " but:" + ToText(topics));
     }
@@ -147,11 +146,10 @@ class BagRecording : public Recording {
 
   std::string name() const override { return name_; }
   std::string Source(RecordingEvent::Kind kind) const override {
-    const std::string key = kind == RecordingEvent::Kind::kImage ? "image_topic " : "imu_topic ";
-    for (const auto& [topic, own_kind] : kinds_) {
-      if (own_kind == kind) return key + topic.first;
+    for (const auto& [topic, stream] : streams_) {
+      if (stream.kind == kind && stream.camera == 0) return stream.key + " " + topic.first;
     }
-    return key;
+    return "";
   }
   std::optional<int64_t> end_ns() const override { return end_ns_; }
 
@@ -160,6 +158,12 @@ class BagRecording : public Recording {
   }
 
  private:
+  struct Stream {
+    RecordingEvent::Kind kind = RecordingEvent::Kind::kImu;
+    int camera = 0;
+    std::string key;  // of the topic
+  };
+
   static std::optional<TypedTopic> FindImages(const TypedTopics& topics, const std::string& topic) {
     auto images = Find(topics, topic, kRaw);
     if (!images) images = Find(topics, topic, kCompressed);
@@ -168,22 +172,22 @@ class BagRecording : public Recording {
   }
 
   bool Uses(const std::string& topic) const {
-    return std::any_of(kinds_.begin(), kinds_.end(),
+    return std::any_of(streams_.begin(), streams_.end(),
                        [&](const auto& used) { return used.first.first == topic; });
   }
 
   // Returns nullopt, and counts the problem, if the message cannot be used.
   std::optional<RecordingEvent> Read(const rosbag::MessageInstance& message) {
     const std::string name = message.getDataType() + " on " + message.getTopic();
-    const auto kind = kinds_.find({message.getTopic(), message.getDataType()});
+    const auto stream = streams_.find({message.getTopic(), message.getDataType()});
     try {
-      if (kind == kinds_.end()) {
+      if (stream == streams_.end()) {
         of_another_type_.Add(name);
-      } else if (kind->second != RecordingEvent::Kind::kImu) {
-        return ImageEvent(message, kind->second);
+      } else if (stream->second.kind != RecordingEvent::Kind::kImu) {
+        return ImageEvent(message, stream->second);
       } else if (const auto imu = message.instantiate<sensor_msgs::Imu>()) {
         const ImuSample sample = ToImuSample(*imu);
-        return RecordingEvent{RecordingEvent::Kind::kImu, sample.t_ns, sample};
+        return RecordingEvent{RecordingEvent::Kind::kImu, sample.t_ns, sample, 0};
       }
     } catch (const ros::serialization::StreamOverrunException&) {
       malformed_.Add(name);
@@ -194,17 +198,17 @@ class BagRecording : public Recording {
   }
 
   std::optional<RecordingEvent> ImageEvent(const rosbag::MessageInstance& message,
-                                           RecordingEvent::Kind kind) {
-    is_depth_ = kind == RecordingEvent::Kind::kDepth;
+                                           const Stream& stream) {
+    is_depth_ = stream.kind == RecordingEvent::Kind::kDepth;
     compressed_image_ = message.instantiate<sensor_msgs::CompressedImage>();
-    if (compressed_image_) return StampedEvent(kind, compressed_image_->header);
+    if (compressed_image_) return StampedEvent(stream, compressed_image_->header);
     raw_image_ = message.instantiate<sensor_msgs::Image>();
-    if (raw_image_) return StampedEvent(kind, raw_image_->header);
+    if (raw_image_) return StampedEvent(stream, raw_image_->header);
     return std::nullopt;
   }
 
-  static RecordingEvent StampedEvent(RecordingEvent::Kind kind, const std_msgs::Header& header) {
-    return {kind, ToNanoseconds(header.stamp), {}};
+  static RecordingEvent StampedEvent(const Stream& stream, const std_msgs::Header& header) {
+    return {stream.kind, ToNanoseconds(header.stamp), {}, stream.camera};
   }
 
   std::string name_;
@@ -212,9 +216,9 @@ class BagRecording : public Recording {
   rosbag::View messages_;  // of the selected topics
   rosbag::View::iterator next_;
   std::optional<int64_t> end_ns_;
-  std::map<TypedTopic, RecordingEvent::Kind> kinds_;  // selected topics
-  bool is_depth_ = false;                             // property of the last image
-  sensor_msgs::ImageConstPtr raw_image_;              // the last image, unless it is compressed
+  std::map<TypedTopic, Stream> streams_;  // selected topics
+  bool is_depth_ = false;                 // property of the last image
+  sensor_msgs::ImageConstPtr raw_image_;  // the last image, unless it is compressed
   sensor_msgs::CompressedImageConstPtr compressed_image_;
   DropCount damaged_{"bag_damaged", 0, ""};
   DropCount of_another_type_{"messages_of_another_type", 0, ""};
@@ -225,10 +229,9 @@ class BagRecording : public Recording {
 }  // namespace
 
 std::unique_ptr<Recording> OpenBags(const std::vector<std::string>& files,
-                                    const std::string& image_topic, const std::string& imu_topic,
-                                    const std::string& right_topic,
-                                    const std::string& depth_topic) {
-  return std::make_unique<BagRecording>(files, image_topic, imu_topic, right_topic, depth_topic);
+                                    const std::vector<std::string>& image_topics,
+                                    const std::string& imu_topic, const std::string& depth_topic) {
+  return std::make_unique<BagRecording>(files, image_topics, imu_topic, depth_topic);
 }
 
 }  // namespace plm_vins

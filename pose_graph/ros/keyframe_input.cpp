@@ -51,7 +51,7 @@ bool KeyframeInput::Accepts(const nav_msgs::Odometry& message) {
 // Rejects images of another size than calibrated: descriptors would be taken at wrong pixels.
 void KeyframeInput::AddImage(const ImageSample& image) {
   CountFailure(&images_, [&] {
-    CheckImageFormat(image.gray, sensor_.camera);
+    CheckImageFormat(image.gray, sensor_.cameras[0].parameters);
     assembly_.AddImage(image);
   });
 }
@@ -80,7 +80,7 @@ void KeyframeInput::AddLines(const sensor_msgs::PointCloud& message) {
 void KeyframeInput::AddCamera(const sensor_msgs::CameraInfo& message) {
   CountFailure(&cameras_, [&] {
     const CameraParameters camera = ToCameraParameters(message);
-    CheckSameKind(sensor_.camera, camera);
+    CheckSameKind(sensor_.cameras[0].parameters, camera);
     CameraModel::Create(camera);
     camera_ = camera;
   });

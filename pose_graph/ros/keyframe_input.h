@@ -47,7 +47,7 @@ class KeyframeInput {
   SensorConfig sensor_;
   KeyframeAssembly assembly_;
   std::optional<CameraParameters> camera_;
-  Rigid3d T_B_C_ = sensor_.T_B_C;
+  Rigid3d T_B_C_ = sensor_.cameras[0].T_B_C;
   DropCount malformed_{"keyframe_messages_malformed", 0, ""};
   DropCount poses_{"poses_impossible", 0, ""};
   DropCount features_{"places_impossible", 0, ""};

@@ -47,7 +47,7 @@ PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
       private_node_(private_node),
       receiver_(in_place_.Receiver(node)),
       config_(config),
-      camera_(CameraModel::Create(config.sensor.camera)),
+      camera_(CameraModel::Create(config.sensor.cameras[0].parameters)),
       map_file_(MapFile(config.pose_graph, private_node)),
       input_(config.sensor),
       queue_(kWaitingKeyframes),
@@ -134,7 +134,7 @@ void PoseGraphNode::Subscribe() {
                   Receive(estimator + "odometry", pass_on),
                   Receive(estimator + "restart", &PoseGraphNode::Restart)};
   image_subscription_.Subscribe(
-      receiver_, private_node_, config_.sensor.image_topic, kQueue,
+      receiver_, private_node_, config_.sensor.cameras[0].image_topic, kQueue,
       [this](const std::optional<ImageSample>& image) { TakeIn([&] { AddImage(image); }); });
   services_ = {private_node_.advertiseService("save_map", &PoseGraphNode::SaveMapFile, this),
                private_node_.advertiseService("load_map", &PoseGraphNode::LoadMapFile, this),

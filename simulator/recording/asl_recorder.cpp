@@ -42,9 +42,7 @@ void AslRecorder::Pictures::Add(int64_t t_ns, const cv::Mat& picture) {
 }
 
 AslRecorder::AslRecorder(const std::string& folder)
-    : folder_(MakeFolder(folder)),
-      images_(folder_ + "/cam0"),
-      imu_list_(folder_ + "/imu0/data.csv") {
+    : folder_(MakeFolder(folder)), imu_list_(folder_ + "/imu0/data.csv") {
   imu_list_.stream()
       << "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
          "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n";
@@ -55,11 +53,9 @@ void AslRecorder::Write(const ImuSample& sample) {
                                              sample.accel.x(), sample.accel.y(), sample.accel.z()});
 }
 
-void AslRecorder::Write(const ImageSample& image) { images_.Add(image.t_ns, image.gray); }
-
-void AslRecorder::WriteSecond(const ImageSample& image) {
-  if (!second_images_) second_images_.emplace(folder_ + "/cam1");
-  second_images_->Add(image.t_ns, image.gray);
+void AslRecorder::WriteImage(int camera, const ImageSample& image) {
+  const auto pictures = images_.try_emplace(camera, folder_ + "/cam" + std::to_string(camera));
+  pictures.first->second.Add(image.t_ns, image.gray);
 }
 
 void AslRecorder::WriteDepth(int64_t t_ns, const cv::Mat1w& depth) {
@@ -68,8 +64,7 @@ void AslRecorder::WriteDepth(int64_t t_ns, const cv::Mat1w& depth) {
 }
 
 void AslRecorder::Finish() {
-  images_.Close();
-  if (second_images_) second_images_->Close();
+  for (auto& [camera, pictures] : images_) pictures.Close();
   if (depths_) depths_->Close();
   imu_list_.Close();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -10,15 +11,14 @@
 
 namespace plm_vins::simulator {
 
-// Writes the folders of the EuRoC dataset: DIR/mav0/cam0 and imu0; cam1 and depth0 if there are
-// images of a second camera or of depth. DIR must not contain a recording yet.
+// Writes the folders of the EuRoC dataset: DIR/mav0/cam0 and imu0; cam1, ... and depth0 if
+// there are images of further cameras or of depth. DIR must not contain a recording yet.
 class AslRecorder : public Recorder {
  public:
   explicit AslRecorder(const std::string& folder);
 
   void Write(const ImuSample& sample) override;
-  void Write(const ImageSample& image) override;
-  void WriteSecond(const ImageSample& image) override;
+  void WriteImage(int camera, const ImageSample& image) override;
   void WriteDepth(int64_t t_ns, const cv::Mat1w& depth) override;
   void Finish() override;
 
@@ -38,9 +38,9 @@ class AslRecorder : public Recorder {
     OutputFile list_;
   };
 
-  std::string folder_;  // mav0
-  Pictures images_;
-  std::optional<Pictures> second_images_, depths_;
+  std::string folder_;              // mav0
+  std::map<int, Pictures> images_;  // by camera
+  std::optional<Pictures> depths_;
   OutputFile imu_list_;
 };
 

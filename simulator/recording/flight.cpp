@@ -17,7 +17,7 @@ TrajectoryOptions TrajectoryThrough(const World& world, const FlightOptions& opt
   trajectory.duration = options.duration;
   trajectory.center = world.flight_center;
   trajectory.extent = world.flight_extent;
-  trajectory.R_V_B = ForwardLookingBody(options.sensors.T_B_C);
+  trajectory.R_V_B = ForwardLookingBody(options.sensors.cameras[0].T_B_C);
   trajectory.seed = options.seed;
   return trajectory;
 }
@@ -43,8 +43,9 @@ ImagingOptions Imaging(const FlightOptions& options) {
   return imaging;
 }
 
-// Offsets from the seed of the first camera, far from seeds in use.
-constexpr uint64_t kSecondCameraSeed = uint64_t{1} << 40, kDepthSeed = uint64_t{2} << 40;
+// Seeds of a flight's sensors, far from each other.
+uint64_t SeedOf(uint64_t seed, int sensor) { return seed + (static_cast<uint64_t>(sensor) << 40); }
+constexpr int kDepthSensor = kMaxCameras;
 
 }  // namespace
 
@@ -52,13 +53,11 @@ Flight::Flight(const FlightOptions& options)
     : options_(options),
       world_(MakeWorld(options.world, options.texture, options.seed)),
       trajectory_(TrajectoryThrough(world_, options)),
-      imu_(SimulateImu(trajectory_, ImuOptions(options))),
-      camera_(trajectory_, world_.scene, options.sensors.camera, options.sensors.T_B_C,
-              Imaging(options)) {
-  if (const auto& second = options.sensors.second_camera) {
+      imu_(SimulateImu(trajectory_, ImuOptions(options))) {
+  for (const CameraSensor& camera : options.sensors.cameras) {
     ImagingOptions imaging = Imaging(options);
-    imaging.seed += kSecondCameraSeed;
-    second_camera_.emplace(trajectory_, world_.scene, second->camera, second->T_B_C, imaging);
+    imaging.seed = SeedOf(options.seed, static_cast<int>(cameras_.size()));
+    cameras_.emplace_back(trajectory_, world_.scene, camera.parameters, camera.T_B_C, imaging);
   }
 }
 
@@ -78,15 +77,13 @@ void Flight::Record(const std::vector<Recorder*>& recorders,
 int64_t Flight::RecordImages(const std::vector<Recorder*>& recorders, int64_t index) const {
   const double t = ToSeconds(ExposureTime(index));
   const int64_t t_ns = options_.start_ns + ExposureTime(index) - ToNanoseconds(options_.sensors.td);
-  const cv::Mat image = camera_.Expose(t, index);
-  for (Recorder* recorder : recorders) recorder->Write(ImageSample{t_ns, image});
-  if (second_camera_) {
-    const cv::Mat second = second_camera_->Expose(t, index);
-    for (Recorder* recorder : recorders) recorder->WriteSecond(ImageSample{t_ns, second});
+  for (size_t i = 0; i < cameras_.size(); ++i) {
+    const ImageSample image{t_ns, cameras_[i].Expose(t, index)};
+    for (Recorder* recorder : recorders) recorder->WriteImage(static_cast<int>(i), image);
   }
   if (const auto& sensor = options_.sensors.depth) {
     const cv::Mat1w depth =
-        MeasureDepth(camera_.Depth(t), *sensor, options_.seed + kDepthSeed, index);
+        MeasureDepth(cameras_[0].Depth(t), *sensor, SeedOf(options_.seed, kDepthSensor), index);
     for (Recorder* recorder : recorders) recorder->WriteDepth(t_ns, depth);
   }
   return t_ns;

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "common/config/config.h"
@@ -29,7 +28,7 @@ struct FlightOptions {
 };
 
 // A flight through a rendered world. The timestamp of an image is the middle of its exposure (with
-// a rolling shutter, that of the middle row) minus td, also for the second camera and for depth;
+// a rolling shutter, that of the middle row) minus td, for all cameras and for depth;
 // IMU and ground truth are in IMU time.
 class Flight {
  public:
@@ -56,8 +55,7 @@ class Flight {
   World world_;
   Trajectory trajectory_;
   ImuSimulation imu_;
-  CameraSimulator camera_;
-  std::optional<CameraSimulator> second_camera_;
+  std::vector<CameraSimulator> cameras_;
 };
 
 }  // namespace plm_vins::simulator

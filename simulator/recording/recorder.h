@@ -13,9 +13,7 @@ class Recorder {
  public:
   virtual ~Recorder() = default;
   virtual void Write(const ImuSample& sample) = 0;
-  virtual void Write(const ImageSample& image) = 0;
-  // Takes an image of the second camera.
-  virtual void WriteSecond(const ImageSample& image) = 0;
+  virtual void WriteImage(int camera, const ImageSample& image) = 0;
   // Takes depths along the optical axis [mm]; 0 is unknown.
   virtual void WriteDepth(int64_t t_ns, const cv::Mat1w& depth) = 0;
   // Flushes all files; must be the last call.

@@ -28,7 +28,7 @@ struct Arguments {
   std::string output;
   std::string asl;
   std::string config;
-  bool stereo = false;
+  std::string rig;
   bool depth = false;
   FlightOptions flight;
 };
@@ -69,8 +69,8 @@ void DeclareFiles(Arguments* arguments, CommandLine* line) {
             "ROS bag, new; the ground truth goes beside it as .tum and .csv");
   line->Add("asl", TakePath(&arguments->asl), "folder in ASL format (EuRoC), new");
   line->Add("config", TakePath(&arguments->config),
-            "sensors: topics, camera, shutter, extrinsics, IMU noise, td (default: EuRoC's)");
-  line->AddFlag("stereo", &arguments->stereo, "the configuration's second camera, too");
+            "sensors: topics, camera 0, shutter, extrinsics, IMU noise, td (default: EuRoC's)");
+  line->Add("rig", TakePath(&arguments->rig), "sensors likewise, but with all cameras of the file");
   line->AddFlag("depth", &arguments->depth, "depth images as the configuration has them, too");
 }
 
@@ -155,16 +155,18 @@ void WriteGroundTruth(const Arguments& arguments, const std::vector<FrameState>&
   }
 }
 
-// Keeps only the requested sensors, which the configuration must have.
-void ChooseSensors(const Arguments& arguments, SensorConfig* sensors) {
-  if (arguments.stereo && !sensors->second_camera) {
-    throw std::runtime_error("--stereo: name a --config with num_of_cam: 2");
+SensorConfig ChooseSensors(const Arguments& arguments) {
+  if (!arguments.rig.empty() && !arguments.config.empty()) {
+    throw std::runtime_error("--rig: gives all sensors; remove --config");
   }
-  if (arguments.depth && !sensors->depth) {
-    throw std::runtime_error("--depth: name a --config with depth_topic");
+  const std::string& file = arguments.rig.empty() ? arguments.config : arguments.rig;
+  SensorConfig sensors = file.empty() ? DefaultSensors() : LoadConfig(file).sensor;
+  if (arguments.depth && !sensors.depth) {
+    throw std::runtime_error("--depth: name a configuration with depth_topic");
   }
-  if (!arguments.stereo) sensors->second_camera.reset();
-  if (!arguments.depth) sensors->depth.reset();
+  if (arguments.rig.empty()) sensors.cameras.resize(1);
+  if (!arguments.depth) sensors.depth.reset();
+  return sensors;
 }
 
 void Run(Arguments arguments) {
@@ -172,8 +174,7 @@ void Run(Arguments arguments) {
     throw std::runtime_error("--output or --asl is required");
   }
   FlightOptions& options = arguments.flight;
-  if (!arguments.config.empty()) options.sensors = LoadConfig(arguments.config).sensor;
-  ChooseSensors(arguments, &options.sensors);
+  options.sensors = ChooseSensors(arguments);
   const Flight flight(options);  // first, since it may throw; no folder is created then
   const auto owned = OpenRecorders(arguments);
   std::vector<Recorder*> recorders;

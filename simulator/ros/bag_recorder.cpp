@@ -7,6 +7,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 
+#include <map>
 #include <memory>
 #include <stdexcept>
 
@@ -44,19 +45,15 @@ class BagRecorder : public Recorder {
     Guard([&] { bag_->write(AbsoluteTopic(sensors_.imu_topic), message.header.stamp, message); });
   }
 
-  void Write(const ImageSample& image) override {
-    WriteImage(sensors_.image_topic, NextHeader(image.t_ns, "cam0", &image_count_), "mono8",
-               image.gray);
-  }
-
-  void WriteSecond(const ImageSample& image) override {
-    WriteImage(sensors_.second_camera.value().image_topic,
-               NextHeader(image.t_ns, "cam1", &second_count_), "mono8", image.gray);
+  void WriteImage(int camera, const ImageSample& image) override {
+    const std::string frame = "cam" + std::to_string(camera);
+    WritePixels(sensors_.cameras.at(camera).image_topic,
+                NextHeader(image.t_ns, frame, &image_counts_[camera]), "mono8", image.gray);
   }
 
   void WriteDepth(int64_t t_ns, const cv::Mat1w& depth) override {
-    WriteImage(sensors_.depth.value().topic, NextHeader(t_ns, "cam0", &depth_count_), "16UC1",
-               depth);
+    WritePixels(sensors_.depth.value().topic, NextHeader(t_ns, "cam0", &depth_count_), "16UC1",
+                depth);
   }
 
   void Finish() override {
@@ -76,8 +73,8 @@ class BagRecorder : public Recorder {
     return header;
   }
 
-  void WriteImage(const std::string& topic, const std_msgs::Header& header,
-                  const std::string& encoding, const cv::Mat& pixels) {
+  void WritePixels(const std::string& topic, const std_msgs::Header& header,
+                   const std::string& encoding, const cv::Mat& pixels) {
     const auto message = cv_bridge::CvImage(header, encoding, pixels).toImageMsg();
     Guard([&] { bag_->write(AbsoluteTopic(topic), header.stamp, message); });
   }
@@ -94,7 +91,8 @@ class BagRecorder : public Recorder {
   std::string file_;
   SensorConfig sensors_;
   std::unique_ptr<rosbag::Bag, CloseOrLeave> bag_{new rosbag::Bag};
-  uint32_t imu_count_ = 0, image_count_ = 0, second_count_ = 0, depth_count_ = 0;
+  uint32_t imu_count_ = 0, depth_count_ = 0;
+  std::map<int, uint32_t> image_counts_;  // by camera
 };
 
 }  // namespace

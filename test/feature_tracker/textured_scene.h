@@ -39,8 +39,8 @@ inline cv::Matx33d CameraMatrix() {
 }
 
 // Homography of the pixels under a pure camera rotation.
-inline cv::Matx33d RotationHomography(const Eigen::Quaterniond& R_C1_C0) {
-  const Eigen::Matrix3d R = R_C1_C0.toRotationMatrix();
+inline cv::Matx33d RotationHomography(const Eigen::Quaterniond& R_now_then) {
+  const Eigen::Matrix3d R = R_now_then.toRotationMatrix();
   const cv::Matx33d R_cv(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1),
                          R(2, 2));
   return CameraMatrix() * R_cv * CameraMatrix().inv();

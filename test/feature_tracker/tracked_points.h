@@ -49,9 +49,9 @@ inline std::vector<double> TrackErrors(const PointFrame& frame0, const PointFram
 class PointTrackerTest : public ::testing::Test {
  protected:
   PointFrame Track(const cv::Mat& image,
-                   const std::optional<Eigen::Quaterniond>& R_C1_C0 = std::nullopt) {
+                   const std::optional<Eigen::Quaterniond>& R_now_then = std::nullopt) {
     t_ns_ += kFrame_ns;
-    return tracker_->Track({t_ns_, image}, R_C1_C0);
+    return tracker_->Track({t_ns_, image}, R_now_then);
   }
 
   void Configure(const PointTrackerConfig& config) {

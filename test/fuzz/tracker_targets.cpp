@@ -12,7 +12,7 @@ constexpr int kWidth = 96, kHeight = 64;
 
 Config SmallCamera() {
   Config config;
-  CameraParameters& camera = config.sensor.camera;
+  CameraParameters& camera = config.sensor.cameras[0].parameters;
   camera.width = kWidth;
   camera.height = kHeight;
   camera.fx = camera.fy = 80;
@@ -50,7 +50,7 @@ void Track(const Bytes& bytes) {
     for (int sample = 0; sample < 10; ++sample) {
       stage.AddImu({t_ns - 50'000'000 + 5'000'000 * sample, {0.1, 0, 0}, {0, 0, 9.81}});
     }
-    stage.AddImage({t_ns, picture});
+    stage.AddImage(0, {t_ns, picture});
     while (stage.Pop()) {
     }
   }

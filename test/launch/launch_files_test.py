@@ -22,7 +22,7 @@ LAUNCH = pathlib.Path(rospkg.RosPack().get_path("plm_vins")) / "launch"
 SENSORS = {f"{name}.launch": f"{name}.yaml" for name in (
     "euroc", "euroc_stereo", "realsense_d435i", "realsense_d435i_depth", "realsense_d435i_stereo",
     "tum_vi")}
-TEMPLATES = ("own_sensor.launch", "plm_vins.launch", "px4.launch")
+TEMPLATES = ("own_sensor.launch", "plm_vins.launch", "px4.launch", "rig.launch")
 ALL = (*SENSORS, *TEMPLATES)
 TRACKERS = ("feature_tracker", "linefeature_tracker")
 NODELETS = {"feature_tracker": "plm_vins/FeatureTracker",

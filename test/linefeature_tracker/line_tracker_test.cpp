@@ -48,9 +48,9 @@ class LineTrackerTest : public testing::Test {
   }
 
   LineFrame Track(const cv::Mat& image,
-                  const std::optional<Eigen::Quaterniond>& R_C1_C0 = std::nullopt) {
+                  const std::optional<Eigen::Quaterniond>& R_now_then = std::nullopt) {
     t_ns_ += kFrame_ns;
-    return tracker_->Track({t_ns_, image}, R_C1_C0);
+    return tracker_->Track({t_ns_, image}, R_now_then);
   }
 
   // Index of the edge on which the line lies (in either direction), or -1.

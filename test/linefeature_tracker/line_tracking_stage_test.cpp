@@ -25,7 +25,7 @@ class LineTrackingStageTest : public ::testing::Test {
  protected:
   LineTrackingStageTest() {
     Config config;
-    config.sensor.camera = PlainParameters();
+    config.sensor.cameras[0].parameters = PlainParameters();
     config.lines.max_lines = 60;
     config.lines.half_resolution = false;
     config.lines.spacing = 2;
@@ -34,7 +34,7 @@ class LineTrackingStageTest : public ::testing::Test {
   }
 
   TrackedLines Track(int milliseconds, const cv::Mat& picture) {
-    stage_->AddImage({milliseconds * kMillisecond, picture});
+    stage_->AddImage(0, {milliseconds * kMillisecond, picture});
     return stage_->Flush().value();
   }
 
@@ -56,7 +56,7 @@ TEST_F(LineTrackingStageTest, KeepsTheIdsOfAStillScene) {
 
 TEST_F(LineTrackingStageTest, DropsItsTracksAtANewRecording) {
   const TrackedLines before = Track(5000, bars_);
-  for (int t = 0; t < 500; t += 50) stage_->AddImage({t * kMillisecond, bars_});
+  for (int t = 0; t < 500; t += 50) stage_->AddImage(0, {t * kMillisecond, bars_});
   const TrackedLines after = Track(500, bars_);
   EXPECT_TRUE(after.restart);
   EXPECT_GT(*Ids(after.features).begin(), *Ids(before.features).rbegin());
@@ -68,7 +68,7 @@ TEST_F(LineTrackingStageTest, AnImageWithoutLinesGivesAnEmptyFrame) {
   const TrackedLines lost = Track(50, blank);
   EXPECT_TRUE(lost.features.lines.empty());
   EXPECT_EQ(lost.features.t_ns, 50 * kMillisecond);
-  for (const int t : {100, 150, 200}) stage_->AddImage({t * kMillisecond, bars_});
+  for (const int t : {100, 150, 200}) stage_->AddImage(0, {t * kMillisecond, bars_});
   TrackedLines found;
   while (auto frame = stage_->Flush()) found = *frame;
   EXPECT_FALSE(found.features.lines.empty());
@@ -78,7 +78,7 @@ TEST(LineTrackingStage, ErrorOfAMissingDetectorNamesTheConfiguration) {
   if (LineDetector::IsAvailable(LineDetectorType::kLsd)) GTEST_SKIP() << "it has all detectors";
   Config config;
   config.file = "camera.yaml";
-  config.sensor.camera = PlainParameters();
+  config.sensor.cameras[0].parameters = PlainParameters();
   config.lines.line_detector = LineDetectorType::kLsd;
   EXPECT_THAT(testing::MessageOf([&] { LineTrackingStage stage(config); }),
               ::testing::StartsWith("camera.yaml: line_detector: OpenCV "));
@@ -87,7 +87,7 @@ TEST(LineTrackingStage, ErrorOfAMissingDetectorNamesTheConfiguration) {
 TEST(LineTrackingStage, TakesTheMaskOfThePoints) {
   Config config;
   config.file = "camera.yaml";
-  config.sensor.camera = PlainParameters();
+  config.sensor.cameras[0].parameters = PlainParameters();
   config.points.fisheye_mask = "no_such_file.png";
   EXPECT_EQ(testing::MessageOf([&] { LineTrackingStage stage(config); }),
             "camera.yaml: fisheye_mask: cannot read the image no_such_file.png");

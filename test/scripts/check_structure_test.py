@@ -116,6 +116,15 @@ class CheckStructure(unittest.TestCase):
             del files["tracking/b.h"]
             self.assertEqual(self.check_tree(files)[0], 0)
 
+    def test_a_folder_and_its_parent_that_include_each_other(self):
+        files = {"tracking/a.h": HEADER + '#include "tracking/stereo/b.h"\n',
+                 "tracking/stereo/b.h": HEADER + '#include "tracking/c.h"\n'}
+        with unittest.mock.patch.dict(check_structure.LAYERS,
+                                      {"tracking/stereo": {"tracking/c.h"}, "tracking/c.h": set()}):
+            code, output = self.check_tree(files)
+            self.assertEqual(code, 1)
+            self.assertIn("tracking and tracking/stereo include each other", output)
+
     def test_ceres_by_a_detour(self):
         files = {"vins_estimator/ros/a.cpp": HEADER + '#include "vins_estimator/b.h"\n',
                  "vins_estimator/b.h": HEADER + '#include "vins_estimator/problem/c.h"\n',

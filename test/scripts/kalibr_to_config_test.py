@@ -203,7 +203,7 @@ class RoundTrip(Kalibr):
                      [0.0, 0.0, 0.0, 1.0]]
         right = edited(CAMERA, rostopic="/right/image_raw", T_cam_imu=None, T_cn_cnm1=T_cn_cnm1,
                        distortion_model="equidistant", distortion_coeffs=[0.1, 0.2, 0.3, 0.4])
-        sensor = self.load(chain={"cam0": CAMERA, "cam1": right}, options=["--second", "cam1"])
+        sensor = self.load(chain={"cam0": CAMERA, "cam1": right}, options=["--cam", "cam0", "cam1"])
         self.assertEqual(sensor["num_of_cam"], 2)
         self.assertEqual(sensor["image_topic"], "/left/image_raw")
         self.assertEqual(sensor["image1_topic"], "/right/image_raw")
@@ -215,6 +215,25 @@ class RoundTrip(Kalibr):
         self.assert_all_close(sensor["body_T_cam1"], [0, 1, 0, -2, -1, 0, 0, 0.9, 0, 0, 1, -3,
                                                       0, 0, 0, 1])
         self.assert_all_close(sensor["extrinsicTranslation"], P_B_C)
+
+    def test_rig_of_four_cameras(self):
+        """Each camera is 0.1 m to the right of the previous one."""
+        T_cn_cnm1 = [[1.0, 0.0, 0.0, -0.1], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0],
+                     [0.0, 0.0, 0.0, 1.0]]
+        chain = {"cam0": CAMERA}
+        for number in (1, 2, 3):
+            chain[f"cam{number}"] = edited(CAMERA, rostopic=f"/cam{number}", T_cam_imu=None,
+                                           T_cn_cnm1=T_cn_cnm1)
+        sensor = self.load(chain=chain, options=["--cam", *chain])
+        self.assertEqual(sensor["num_of_cam"], 4)
+        self.assertEqual(sensor["image3_topic"], "/cam3")
+        self.assertEqual(sensor["cam3_model_type"], sensor["model_type"])
+        self.assert_all_close(sensor["body_T_cam3"], [0, 1, 0, -2, -1, 0, 0, 0.7, 0, 0, 1, -3,
+                                                      0, 0, 0, 1])
+
+    def test_five_cameras(self):
+        self.assert_refused("--cam", "5 cameras", "at most 4 are supported",
+                            options=["--cam", *["cam0"] * 5])
 
     def test_numbers_that_yaml_takes_for_text(self):
         imu = self.write("imu.yaml", "accelerometer_noise_density: 2e-3\n"

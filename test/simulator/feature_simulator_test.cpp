@@ -26,7 +26,7 @@ FeatureSimulationOptions NoiseFree() {
 }
 
 Rigid3d CameraFromWorld(const FeatureSimulationOptions& options, const FrameState& state) {
-  return (state.T_W_B() * options.sensors.T_B_C).Inverse();
+  return (state.T_W_B() * options.sensors.cameras[0].T_B_C).Inverse();
 }
 
 // Calls `f(observation, true normalized point)` for every point observation.
@@ -91,7 +91,7 @@ TEST(FeatureSimulator, PixelNoiseHasTheRequestedSize) {
   FeatureSimulationOptions options = Options();
   options.point_noise_px = 0.7;
   const FeatureDataset noisy = SimulateFeatures(options);
-  const auto camera = CameraModel::Create(options.sensors.camera);
+  const auto camera = CameraModel::Create(options.sensors.cameras[0].parameters);
   double squared = 0;
   int count = 0;
   ForEachPoint(options, noisy, [&](const PointObservation& point, const Vector2d& truth) {
@@ -119,7 +119,7 @@ TEST(FeatureSimulator, OutliersHaveTheRequestedShare) {
   const FeatureDataset data = SimulateFeatures(options);
   int outliers = 0, count = 0;
   ForEachPoint(options, data, [&](const PointObservation& point, const Vector2d& truth) {
-    outliers += (point.xy - truth).norm() * options.sensors.camera.fx > 4.0;
+    outliers += (point.xy - truth).norm() * options.sensors.cameras[0].parameters.fx > 4.0;
     ++count;
   });
   EXPECT_NEAR(outliers / double(count), 0.1, 0.01);

@@ -47,12 +47,13 @@ class Simulate(unittest.TestCase):
                                 "--seed", seed)
 
     def test_paths_that_are_empty(self):
-        for option in ["--asl", "--config"]:
+        for option in ["--asl", "--config", "--rig"]:
             self.assert_refuses(f"{option}: expected a path, but it is empty", option, "")
 
     def test_sensors_that_the_configuration_lacks(self):
-        self.assert_refuses("--stereo: name a --config with num_of_cam: 2", "--stereo")
-        self.assert_refuses("--depth: name a --config with depth_topic", "--depth")
+        self.assert_refuses("--rig: gives all sensors; remove --config", "--rig", "a.yaml",
+                            "--config", "b.yaml")
+        self.assert_refuses("--depth: name a configuration with depth_topic", "--depth")
 
     def test_a_bag_in_the_place_of_the_ground_truth(self):
         self.assert_refuses("the ground truth would overwrite", "--output", "flight.tum")

@@ -18,7 +18,7 @@ TrajectoryOptions Options(Motion motion) {
   TrajectoryOptions options;
   options.motion = motion;
   options.duration = 30.0;
-  options.R_V_B = ForwardLookingBody(DefaultSensors().T_B_C);
+  options.R_V_B = ForwardLookingBody(DefaultSensors().cameras[0].T_B_C);
   return options;
 }
 
@@ -133,7 +133,7 @@ TEST(Trajectory, CorridorRunsStraightFromEndToEnd) {
 TEST(Trajectory, CameraLooksForwardAndUpright) {
   const SensorConfig sensors = DefaultSensors();
   TrajectoryOptions options = Options(Motion::kStill);
-  const Rigid3d T_W_C = Trajectory(options).At(0).T_W_B * sensors.T_B_C;
+  const Rigid3d T_W_C = Trajectory(options).At(0).T_W_B * sensors.cameras[0].T_B_C;
   EXPECT_TRUE((T_W_C.rotation * Vector3d::UnitZ()).isApprox(Vector3d::UnitX(), 1e-9));
   EXPECT_TRUE((T_W_C.rotation * Vector3d::UnitY()).isApprox(-Vector3d::UnitZ(), 1e-9));
 }

@@ -20,6 +20,6 @@ def write_config(folder, sensor):
 
 def simulate(program, config, sensor, seconds, *outputs):
     """Runs the program `simulate`; OUTPUTS are its options for them."""
-    command = [program, "--config", config, f"--{sensor}", "--exposure", 0, "--duration", seconds,
-               *outputs]
+    sensors = ["--rig", config] if sensor == "stereo" else ["--config", config, "--depth"]
+    command = [program, *sensors, "--exposure", 0, "--duration", seconds, *outputs]
     subprocess.run([str(word) for word in command], stderr=subprocess.DEVNULL, check=True)

@@ -12,11 +12,11 @@ namespace plm_vins::testing {
 
 inline Config StillConfig() {
   Config config;
-  config.sensor.camera.width = 320;
-  config.sensor.camera.height = 240;
-  config.sensor.camera.fx = config.sensor.camera.fy = 200;
-  config.sensor.camera.cx = 160;
-  config.sensor.camera.cy = 120;
+  config.sensor.cameras[0].parameters.width = 320;
+  config.sensor.cameras[0].parameters.height = 240;
+  config.sensor.cameras[0].parameters.fx = config.sensor.cameras[0].parameters.fy = 200;
+  config.sensor.cameras[0].parameters.cx = 160;
+  config.sensor.cameras[0].parameters.cy = 120;
   config.points.max_cnt = 60;
   config.points.min_dist = 15;
   return config;

@@ -23,7 +23,7 @@ class ImageQueueTest : public ::testing::Test {
  protected:
   void AddImage(int milliseconds) { AddImage(milliseconds, picture_); }
   void AddImage(int milliseconds, const cv::Mat& picture) {
-    queue_.AddImage({kStart + milliseconds * kMillisecond, picture});
+    queue_.AddImage(0, {kStart + milliseconds * kMillisecond, picture});
   }
 
   // Adds IMU samples every 5 ms.
@@ -47,7 +47,7 @@ class ImageQueueTest : public ::testing::Test {
   std::vector<int> Take(const Next& next) {
     std::vector<int> stamps;
     while (const auto ready = next()) {
-      stamps.push_back(static_cast<int>((ready->image.t_ns - kStart) / kMillisecond));
+      stamps.push_back(static_cast<int>((ready->images[0].t_ns - kStart) / kMillisecond));
       last_ = *ready;
     }
     return stamps;
@@ -62,12 +62,12 @@ TEST_F(ImageQueueTest, AnImageWaitsForTheGyro) {
   AddImu(-10, 40);
   AddImage(0);
   EXPECT_EQ(Pop(), (std::vector<int>{0}));
-  EXPECT_FALSE(last_.R_C1_C0) << "there is no image before";
+  EXPECT_FALSE(last_.R_now_then) << "there is no image before";
   AddImage(50);
   EXPECT_TRUE(Pop().empty());
   AddImu(45, 50);
   EXPECT_EQ(Pop(), (std::vector<int>{50}));
-  EXPECT_TRUE(last_.R_C1_C0);
+  EXPECT_TRUE(last_.R_now_then);
   EXPECT_EQ(queue_.counts().without_gyro, 0);
 }
 
@@ -76,7 +76,7 @@ TEST_F(ImageQueueTest, GivesTheRotationSinceThePreviousImage) {
   AddImage(0);
   AddImage(50);
   EXPECT_EQ(Pop().size(), 2u);
-  const Eigen::Vector3d turn = SO3Log(*last_.R_C1_C0);
+  const Eigen::Vector3d turn = SO3Log(*last_.R_now_then);
   EXPECT_NEAR(turn.z(), -0.05, 1e-9) << "the image turns against the camera";
   EXPECT_NEAR(turn.norm(), 0.05, 1e-9);
 }
@@ -166,7 +166,7 @@ TEST_F(ImageQueueTest, RestartsWithTheRecording) {
   AddImage(550);
   EXPECT_EQ(Pop(), (std::vector<int>{550}));
   EXPECT_FALSE(last_.restart);
-  EXPECT_TRUE(last_.R_C1_C0);
+  EXPECT_TRUE(last_.R_now_then);
 }
 
 TEST_F(ImageQueueTest, DropsImagesOfAnotherSizeAndReportsTheSize) {
@@ -202,10 +202,10 @@ TEST_F(ImageQueueTest, AnImuSampleAloneInTheFutureLeavesTheGyroAtWork) {
   AddImage(0);
   AddImage(50);
   EXPECT_EQ(Pop().size(), 2u);
-  EXPECT_TRUE(last_.R_C1_C0);
+  EXPECT_TRUE(last_.R_now_then);
   AddImage(100);
   EXPECT_EQ(Pop().size(), 1u);
-  EXPECT_TRUE(last_.R_C1_C0);
+  EXPECT_TRUE(last_.R_now_then);
 }
 
 TEST(ImageQueue, MarksImagesAtTheRateAndDeliversAll) {
@@ -214,7 +214,7 @@ TEST(ImageQueue, MarksImagesAtTheRateAndDeliversAll) {
   ImageQueue queue(config);
   std::vector<bool> published;
   for (int i = 0; i < 10; ++i) {
-    queue.AddImage({kStart + i * 50 * kMillisecond, StillPicture()});
+    queue.AddImage(0, {kStart + i * 50 * kMillisecond, StillPicture()});
     published.push_back(queue.Flush()->publish);
   }
   EXPECT_FALSE(published[0]);
@@ -228,20 +228,19 @@ TEST(ImageQueue, IgnoresTheGyroIfTheCameraRotationIsUnknown) {
   ImageQueue queue(config);
   for (int t = -50; t <= 50; t += 5) queue.AddImu(StillImu(kStart + t * kMillisecond));
   for (const int t : {0, 50, 100}) {
-    queue.AddImage({kStart + t * kMillisecond, StillPicture()});
+    queue.AddImage(0, {kStart + t * kMillisecond, StillPicture()});
     const auto ready = queue.Pop();
     ASSERT_TRUE(ready) << "waits for the gyro";
-    EXPECT_FALSE(ready->R_C1_C0);
+    EXPECT_FALSE(ready->R_now_then);
   }
   EXPECT_EQ(queue.counts().without_gyro, 0);
 }
 
-class CompanionImages : public ::testing::Test {
+class OtherImages : public ::testing::Test {
  protected:
   static Config TwoCameras() {
     Config config = StillConfig();
-    config.sensor.second_camera.emplace();
-    config.sensor.second_camera->camera = config.sensor.camera;
+    config.sensor.cameras.push_back(config.sensor.cameras[0]);
     config.sensor.depth.emplace();
     return config;
   }
@@ -253,77 +252,104 @@ class CompanionImages : public ::testing::Test {
   ImageQueue queue_{TwoCameras()};
 };
 
-TEST_F(CompanionImages, ArePairedByStamp) {
-  queue_.AddRight({At(1), picture_});
+TEST_F(OtherImages, ArePairedByStamp) {
+  queue_.AddImage(1, {At(1), picture_});
   queue_.AddDepth({At(0), depth_});
-  queue_.AddImage({At(0), picture_});
-  queue_.AddImage({At(50), picture_});
+  queue_.AddImage(0, {At(0), picture_});
+  queue_.AddImage(0, {At(50), picture_});
   const auto first = queue_.Flush();
   ASSERT_TRUE(first);
-  EXPECT_EQ(first->companions.right.t_ns, At(1));
-  EXPECT_EQ(first->companions.depth.t_ns, At(0));
+  EXPECT_EQ(first->images[1].t_ns, At(1));
+  EXPECT_EQ(first->depth.t_ns, At(0));
   const auto second = queue_.Flush();
   ASSERT_TRUE(second);
-  EXPECT_TRUE(second->companions.right.gray.empty());
-  EXPECT_TRUE(second->companions.depth.depth.empty());
-  EXPECT_EQ(queue_.counts().without_right.count, 1);
+  EXPECT_TRUE(second->images[1].gray.empty());
+  EXPECT_TRUE(second->depth.depth.empty());
+  EXPECT_EQ(queue_.counts().others.at(0).missing.count, 1);
   EXPECT_EQ(queue_.counts().without_depth.count, 1);
 }
 
-TEST_F(CompanionImages, NeedNoPixelsWhereTheyAreNotSearched) {
-  queue_.AddRight({At(0), cv::Mat()});
-  queue_.AddImage({At(0), picture_});
+TEST_F(OtherImages, NeedNoPixelsWhereTheyAreNotSearched) {
+  queue_.AddImage(1, {At(0), cv::Mat()});
+  queue_.AddImage(0, {At(0), picture_});
   const auto ready = queue_.Flush();
   ASSERT_TRUE(ready);
-  EXPECT_TRUE(ready->companions.right.gray.empty());
-  EXPECT_EQ(queue_.counts().without_right.count, 0);
-  EXPECT_EQ(queue_.counts().right_unusable.count, 0);
+  EXPECT_TRUE(ready->images[1].gray.empty());
+  EXPECT_EQ(queue_.counts().others.at(0).missing.count, 0);
+  EXPECT_EQ(queue_.counts().others.at(0).unusable.count, 0);
 }
 
-TEST_F(CompanionImages, OfAFrozenSecondCameraAreDropped) {
+TEST_F(OtherImages, OfAFrozenSecondCameraAreDropped) {
   const cv::Mat moved = picture_ + 1;
   const std::vector<cv::Mat> left = {picture_, moved, moved};
   const std::vector<bool> is_used = {true, false, true};  // the last pair stands still
   for (int i = 0; i < 3; ++i) {
-    queue_.AddRight({At(50 * i), picture_.clone()});
-    queue_.AddImage({At(50 * i), left[i]});
+    queue_.AddImage(1, {At(50 * i), picture_.clone()});
+    queue_.AddImage(0, {At(50 * i), left[i]});
     const auto ready = queue_.Flush();
     ASSERT_TRUE(ready);
-    EXPECT_EQ(!ready->companions.right.gray.empty(), is_used[i]) << i;
+    EXPECT_EQ(!ready->images[1].gray.empty(), is_used[i]) << i;
   }
-  EXPECT_EQ(queue_.counts().right_repeated.count, 1);
+  EXPECT_EQ(queue_.counts().others.at(0).repeated.count, 1);
 }
 
-TEST_F(CompanionImages, AreNotSearchedInImagesThatAreNotPublished) {
+TEST_F(OtherImages, AreNotSearchedInImagesThatAreNotPublished) {
   Config config = TwoCameras();
   config.publish_rate = 10;
   ImageQueue queue(config);
   for (int i = 0; i < 20; ++i) {
-    queue.AddRight({At(50 * i), picture_ + i});
-    queue.AddImage({At(50 * i), picture_ + i});
+    queue.AddImage(1, {At(50 * i), picture_ + i});
+    queue.AddImage(0, {At(50 * i), picture_ + i});
     const auto ready = queue.Flush();
     ASSERT_TRUE(ready);
-    EXPECT_EQ(!ready->companions.right.gray.empty(), ready->publish) << i;
+    EXPECT_EQ(!ready->images[1].gray.empty(), ready->publish) << i;
   }
 }
 
-TEST_F(CompanionImages, OfAWrongFormatAreCounted) {
-  queue_.AddRight({At(0), depth_});
+TEST_F(OtherImages, OfAWrongFormatAreCounted) {
+  queue_.AddImage(1, {At(0), depth_});
   queue_.AddDepth({At(0), picture_});
-  EXPECT_EQ(queue_.counts().right_unusable.count, 1);
+  EXPECT_EQ(queue_.counts().others.at(0).unusable.count, 1);
   EXPECT_EQ(queue_.counts().depth_unusable.count, 1);
   EXPECT_EQ(ToDropCounts(queue_.counts()).size(), ToDropCounts(ImageCounts()).size() + 2);
 }
 
-TEST_F(CompanionImages, AreIgnoredIfNotConfigured) {
+TEST_F(OtherImages, AreIgnoredIfNotConfigured) {
   ImageQueue queue(StillConfig());
-  queue.AddRight({At(0), picture_});
+  queue.AddImage(1, {At(0), picture_});
   queue.AddDepth({At(0), depth_});
-  queue.AddImage({At(0), picture_});
+  queue.AddImage(0, {At(0), picture_});
   const auto ready = queue.Flush();
   ASSERT_TRUE(ready);
-  EXPECT_TRUE(ready->companions.right.gray.empty());
-  EXPECT_EQ(queue.counts().without_right.count, 0);
+  EXPECT_EQ(ready->images.size(), 1u);
+  EXPECT_TRUE(ready->depth.depth.empty());
+  EXPECT_TRUE(queue.counts().others.empty());
+}
+
+// A tracked camera has images between those that are published; the second one of a pair need not.
+TEST_F(OtherImages, OfATrackedCameraAreAllUsed) {
+  Config config = TwoCameras();
+  config.sensor.stereo_pairs = "none";
+  config.publish_rate = 10;
+  ImageQueue queue(config);
+  for (int i = 0; i < 20; ++i) {
+    queue.AddImage(1, {At(50 * i), picture_ + i});
+    queue.AddImage(0, {At(50 * i), picture_ + i});
+    EXPECT_FALSE(queue.Flush()->images[1].gray.empty()) << i;
+  }
+}
+
+TEST_F(OtherImages, OfFourCamerasArePairedByStamp) {
+  Config config = StillConfig();
+  config.sensor.cameras.resize(4, config.sensor.cameras[0]);
+  ImageQueue queue(config);
+  for (const int camera : {3, 1, 0}) queue.AddImage(camera, {At(0), picture_ + camera});
+  const auto ready = queue.Flush();
+  ASSERT_TRUE(ready);
+  EXPECT_TRUE(ready->images[2].gray.empty());
+  EXPECT_EQ(cv::norm(ready->images[3].gray, picture_ + 3, cv::NORM_INF), 0);
+  EXPECT_EQ(queue.counts().others[1].missing.count, 1);
+  EXPECT_EQ(ToDropCounts(queue.counts()).back().cause, "images_without_camera2");
 }
 
 }  // namespace

@@ -356,7 +356,7 @@ TEST(EstimationStage, ReportsFarTooSmallConfiguredNoise) {
 // The samples are as configured: neither acc_n nor gyr_n is the cause.
 TEST(EstimationStage, DoesNotBlameTheNoiseForAWrongCalibration) {
   testing::SimulatedFlight flight = GentleFlightFor(12);
-  flight.sensor.T_B_C.rotation *=
+  flight.sensor.cameras[0].T_B_C.rotation *=
       Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
   EstimationStage stage = StageFor(flight);
   Fly(flight, &stage);

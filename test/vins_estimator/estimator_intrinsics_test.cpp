@@ -23,8 +23,8 @@ simulator::FeatureSimulationOptions Options(uint64_t seed) {
 // The flight as observed by trackers with a wrong calibration: focal lengths off by 1 %, principal
 // point by 5 px.
 SimulatedFlight WithWrongIntrinsics(SimulatedFlight flight) {
-  const CameraParameters truth = flight.sensor.camera;
-  CameraParameters& wrong = flight.sensor.camera;
+  const CameraParameters truth = flight.sensor.cameras[0].parameters;
+  CameraParameters& wrong = flight.sensor.cameras[0].parameters;
   wrong.fx *= 1.01;
   wrong.fy *= 1.01;
   wrong.cx += 5;
@@ -58,7 +58,8 @@ TEST(EstimatorIntrinsicsTest, AreFoundInFlight) {
     spoiled.sensor.estimate_intrinsics = true;
     const EstimatedFlight flight = Fly(spoiled);
     found += testing::AbsoluteError(flight) / kSeeds;
-    ExpectIntrinsics(flight.outputs.back().calibration.camera, simulated.sensor.camera);
+    ExpectIntrinsics(flight.outputs.back().calibration.camera,
+                     simulated.sensor.cameras[0].parameters);
   }
   EXPECT_LT(found, 1.3 * right);
   EXPECT_GT(wrong, 3 * found);
@@ -72,7 +73,7 @@ TEST(EstimatorIntrinsicsTest, AreFoundWithARollingShutter) {
   SimulatedFlight spoiled = WithWrongIntrinsics(simulated);
   spoiled.sensor.estimate_intrinsics = true;
   const Calibration found = Fly(spoiled).outputs.back().calibration;
-  ExpectIntrinsics(found.camera, simulated.sensor.camera);
+  ExpectIntrinsics(found.camera, simulated.sensor.cameras[0].parameters);
 }
 
 }  // namespace

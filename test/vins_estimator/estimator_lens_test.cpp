@@ -13,7 +13,7 @@ using testing::SimulatedFlight;
 
 // The lens of EuRoC's left camera, and the radial-tangential model that comes with the dataset.
 CameraParameters EquidistantLens() {
-  CameraParameters camera = simulator::DefaultSensors().camera;
+  CameraParameters camera = simulator::DefaultSensors().cameras[0].parameters;
   camera.model = CameraParameters::Model::kPinholeEquidistant;
   camera.fx = 460.02;
   camera.fy = 458.63;
@@ -37,7 +37,7 @@ simulator::FeatureSimulationOptions Options(const CameraParameters& lens, Motion
   auto options = testing::FlightOptions(motion, 1);
   options.trajectory.duration = 25;
   options.max_points = 80;
-  options.sensors.camera = lens;
+  options.sensors.cameras[0].parameters = lens;
   return options;
 }
 
@@ -45,9 +45,9 @@ simulator::FeatureSimulationOptions Options(const CameraParameters& lens, Motion
 std::string WarningAfter(const simulator::FeatureSimulationOptions& options,
                          const CameraParameters& believed, bool refine) {
   SimulatedFlight flight = testing::WithoutLines(testing::SimulateFlight(options));
-  const Recalibration recalibration(flight.sensor.camera, believed);
+  const Recalibration recalibration(flight.sensor.cameras[0].parameters, believed);
   for (FrameMeasurement& frame : flight.frames) recalibration.Move(&frame);
-  flight.sensor.camera = believed;
+  flight.sensor.cameras[0].parameters = believed;
   flight.sensor.estimate_intrinsics = refine;
   Estimator estimator(testing::ConfigFor(flight));
   testing::Estimate(flight, &estimator);
@@ -55,7 +55,7 @@ std::string WarningAfter(const simulator::FeatureSimulationOptions& options,
 }
 
 TEST(EstimatorLensTest, WrongModelIsReported) {
-  const CameraParameters radtan = simulator::DefaultSensors().camera;
+  const CameraParameters radtan = simulator::DefaultSensors().cameras[0].parameters;
   for (const bool refine : {false, true}) {
     const std::string warning =
         WarningAfter(Options(EquidistantLens(), Motion::kFast), radtan, refine);
@@ -65,7 +65,7 @@ TEST(EstimatorLensTest, WrongModelIsReported) {
 }
 
 TEST(EstimatorLensTest, CorrectModelIsNotReported) {
-  const CameraParameters radtan = simulator::DefaultSensors().camera;
+  const CameraParameters radtan = simulator::DefaultSensors().cameras[0].parameters;
   for (const CameraParameters& lens : {radtan, EquidistantLens(), Fisheye()}) {
     for (const bool refine : {false, true}) {
       EXPECT_EQ(WarningAfter(Options(lens, Motion::kFast), lens, refine), "") << refine;

@@ -14,7 +14,7 @@ class EstimatorOptionsTest : public ::testing::Test {
  protected:
   EstimatorOptionsTest() {
     config_.sensor = simulator::DefaultSensors();
-    focal_length_ = CameraModel::Create(config_.sensor.camera)->FocalLength();
+    focal_length_ = CameraModel::Create(config_.sensor.cameras[0].parameters)->FocalLength();
   }
 
   Config config_;

@@ -24,29 +24,28 @@ simulator::FeatureSimulationOptions GentleFlight(uint64_t seed) {
 
 SimulatedFlight StereoFlight(uint64_t seed, double outlier_ratio = 0) {
   auto options = GentleFlight(seed);
-  options.sensors.second_camera = simulator::DefaultStereoSensors().second_camera;
+  options.sensors.cameras = simulator::DefaultStereoSensors().cameras;
   options.right_outlier_ratio = outlier_ratio;
   return testing::WithoutLines(testing::SimulateFlight(options, /*skip=*/1));
 }
 
 SimulatedFlight WithoutSecondCamera(SimulatedFlight flight) {
-  flight.sensor.second_camera.reset();
+  flight.sensor.cameras.resize(1);
   for (FrameMeasurement& frame : flight.frames) {
     for (PointObservation& point : frame.points.points) {
       point.right.reset();
-      point.right_search = RightSearch::kNotDue;
     }
   }
   return flight;
 }
 
 Rigid3d Mounting(const SensorConfig& sensor) {
-  return sensor.T_B_C.Inverse() * sensor.second_camera->T_B_C;
+  return sensor.cameras[0].T_B_C.Inverse() * sensor.cameras[1].T_B_C;
 }
 
 // Turns the second camera of the configuration.
 void TurnSecondCamera(const Eigen::Vector3d& theta, SensorConfig* sensor) {
-  Rigid3d& T_B_C1 = sensor->second_camera->T_B_C;
+  Rigid3d& T_B_C1 = sensor->cameras[1].T_B_C;
   T_B_C1.rotation = T_B_C1.rotation * SO3Exp(theta);
 }
 
@@ -104,7 +103,7 @@ TEST(EstimatorStereo, StartsInMotionWithinSixTenthsOfASecond) {
 
 TEST(EstimatorStereo, StartsAtStandstillWithinThreeTenthsOfASecond) {
   auto options = GentleFlight(1);
-  options.sensors.second_camera = simulator::DefaultStereoSensors().second_camera;
+  options.sensors.cameras = simulator::DefaultStereoSensors().cameras;
   options.trajectory.rest = 2;
   const SimulatedFlight flight = testing::SimulateFlight(options);
   EXPECT_LE(FirstPose(flight, testing::Estimate(flight)), 0.3);
@@ -148,7 +147,7 @@ TEST(EstimatorStereo, ReportsAWrongBaseline) {
   SimulatedFlight flight = StereoFlight(1);
   Rigid3d mounting = Mounting(flight.sensor);
   mounting.translation *= 1 / 1.05;
-  flight.sensor.second_camera->T_B_C = flight.sensor.T_B_C * mounting;
+  flight.sensor.cameras[1].T_B_C = flight.sensor.cameras[0].T_B_C * mounting;
   const auto error = testing::Estimate(flight).outputs.back().second_camera.baseline;
   ASSERT_TRUE(error);
   EXPECT_NEAR(error->error, 0.05, 0.03);
@@ -163,7 +162,7 @@ TEST(EstimatorStereo, ReportsScaleAndDelayOfMeasuredDepths) {
   SimulatedFlight flight = testing::WithoutLines(testing::SimulateFlight(options, /*skip=*/1));
   for (size_t i = 0; i < flight.frames.size(); ++i) {
     const FrameState& state = flight.truth[i];
-    const Eigen::Matrix3d R_W_C = (state.T_W_B() * flight.sensor.T_B_C).R();
+    const Eigen::Matrix3d R_W_C = (state.T_W_B() * flight.sensor.cameras[0].T_B_C).R();
     const double approach = R_W_C.col(2).dot(state.velocity());
     for (PointObservation& point : flight.frames[i].points.points) {
       if (point.depth) *point.depth = kScale * (*point.depth + kDelay * approach);

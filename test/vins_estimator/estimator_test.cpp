@@ -114,9 +114,9 @@ TEST(EstimatorTest, HoldsPositionInHover) {
 
 TEST(EstimatorTest, LearnsTheRotationOfTheCamera) {
   SimulatedFlight simulated = testing::SimulateFlight(Options(Motion::kFast, 1));
-  const Eigen::Quaterniond truth = simulated.sensor.T_B_C.rotation;
+  const Eigen::Quaterniond truth = simulated.sensor.cameras[0].T_B_C.rotation;
   const Vector3d error = Vector3d(1, -1, 1).normalized() * M_PI / 180;
-  simulated.sensor.T_B_C.rotation = truth * SO3Exp(error);
+  simulated.sensor.cameras[0].T_B_C.rotation = truth * SO3Exp(error);
   simulated.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kRefine;
   const EstimatedFlight flight = testing::Estimate(simulated);
   EXPECT_TRUE(flight.restarts.empty());

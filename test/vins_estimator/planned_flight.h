@@ -56,8 +56,8 @@ class PlannedFlight {
   explicit PlannedFlight(const FlightPlan& plan)
       : plan_(plan),
         sensor_(simulator::DefaultSensors()),
-        camera_(CameraModel::Create(sensor_.camera)),
-        R_V_B_(simulator::ForwardLookingBody(sensor_.T_B_C)),
+        camera_(CameraModel::Create(sensor_.cameras[0].parameters)),
+        R_V_B_(simulator::ForwardLookingBody(sensor_.cameras[0].T_B_C)),
         points_W_(plan.points_W) {
     if (!points_W_.empty()) return;
     for (int i = 0; i < 1500; ++i) {
@@ -141,7 +141,7 @@ class PlannedFlight {
 
   // Tracked points come first; points that left the image get new ids.
   PointFrame PointsAt(double t, int64_t t_ns) {
-    const Rigid3d T_C_W = (BodyAt(t) * sensor_.T_B_C).Inverse();
+    const Rigid3d T_C_W = (BodyAt(t) * sensor_.cameras[0].T_B_C).Inverse();
     PointFrame frame;
     frame.t_ns = t_ns;
     const std::map<size_t, PointObservation> before = std::move(followed_);

@@ -11,7 +11,7 @@ namespace plm_vins::testing {
 
 ProblemOptions OnePixelOptions() {
   Config config;
-  config.sensor.camera = simulator::DefaultSensors().camera;
+  config.sensor.cameras[0].parameters = simulator::DefaultSensors().cameras[0].parameters;
   config.estimator.point_noise = config.estimator.line_noise = 1;
   return {config, kSimulatedFocalLength};
 }
@@ -23,8 +23,8 @@ SimulatedWindow SimulateWindow(simulator::FeatureSimulationOptions options, size
   constexpr double kLineNoise = 1 / kSimulatedFocalLength;
   SimulatedWindow result(LocalMapOptions(kLineNoise, /*remember_lines=*/true));
   SlidingWindow& window = result.window;
-  window.SetExtrinsic(flight.sensor.T_B_C);
-  window.intrinsics = window.ray_intrinsics = flight.sensor.camera.intrinsics();
+  window.SetExtrinsic(flight.sensor.cameras[0].T_B_C);
+  window.intrinsics = window.ray_intrinsics = flight.sensor.cameras[0].parameters.intrinsics();
   std::vector<ImuSample> imu;
   for (size_t i = 0; i <= (frame_count - 1) * stride; ++i) {
     JoinImu(flight.frames[i].imu, &imu);

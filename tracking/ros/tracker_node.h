@@ -9,10 +9,12 @@
 #include <sensor_msgs/PointCloud.h>
 #include <std_msgs/Bool.h>
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/append.h"
 #include "common/config/config.h"
@@ -52,14 +54,18 @@ class TrackerNode {
         private_node_(private_node),
         config_(config),
         stage_(config, kMaxWait),
-        right_schedule_(config.publish_rate),
+        schedule_(config),
         diagnostics_(node, private_node, private_node.getNamespace()),
         settings_(Traits::ToSettings(config), private_node,
                   [this](const Settings& settings) { Apply(settings); }) {
     feature_publisher_ =
         private_node_.advertise<sensor_msgs::PointCloud>(Traits::kFeatureTopic, kOutputQueue);
     restart_publisher_ = private_node_.advertise<std_msgs::Bool>("restart", 10);
-    annotated_publisher_ = private_transport_.advertise(Traits::kAnnotatedTopic, 10);
+    for (const int camera : stage_.tracked_cameras()) {
+      const std::string suffix = camera == 0 ? "" : std::to_string(camera);
+      annotated_publishers_.push_back(
+          private_transport_.advertise(Traits::kAnnotatedTopic + suffix, 10));
+    }
     flush_timer_ = node_.createWallTimer(ros::WallDuration(0.1 * kMaxWaitForImu),
                                          [this](const ros::WallTimerEvent&) { FlushLateImages(); });
     diagnostics_.setHardwareID("none");
@@ -69,8 +75,8 @@ class TrackerNode {
           LogSilence();
           diagnostics_.force_update();
         });
-    SubscribeToCompanions();
-    images_.Subscribe(node_, private_node_, config_.sensor.image_topic, kImageQueue,
+    SubscribeToOthers();
+    images_.Subscribe(node_, private_node_, config_.sensor.cameras[0].image_topic, kImageQueue,
                       [this](std::optional<ImageSample> image) { AddImage(std::move(image)); });
   }
 
@@ -88,28 +94,27 @@ class TrackerNode {
 
   void Apply(const Settings& settings) {
     show_track_ = settings.show_track;
-    Traits::Apply(settings, &stage_.tracker());
+    stage_.ForEachTracker([&](auto* tracker) { Traits::Apply(settings, tracker); });
   }
 
-  void SubscribeToCompanions() {
+  void SubscribeToOthers() {
     const SensorConfig& sensor = config_.sensor;
-    if (sensor.second_camera) {
-      right_images_.Subscribe(node_, private_node_, sensor.second_camera->image_topic, kImageQueue,
-                              [this](std::optional<ImageSample> image) {
-                                if (image) AddRight(std::move(*image));
-                                ScheduleTracking();
-                              });
+    for (int camera = 1; camera < static_cast<int>(sensor.cameras.size()); ++camera) {
+      const std::string name = "camera" + std::to_string(camera) + "_images";
+      const auto add = [this, camera](std::optional<ImageSample> image) {
+        if (image) stage_.AddImage(camera, std::move(*image));
+        ScheduleTracking();
+      };
+      other_images_.push_back(std::make_unique<ImageSubscription>(name));
+      other_images_.back()->Subscribe(
+          node_, private_node_, sensor.cameras[camera].image_topic, kImageQueue, add,
+          [this, camera](int64_t t_ns) { return schedule_.IsDue(camera, t_ns); });
     }
     if (sensor.depth && Traits::kUsesDepth) {
       depth_subscriber_ = node_.subscribe<sensor_msgs::Image>(
           sensor.depth->topic, kImageQueue,
           [this](const sensor_msgs::ImageConstPtr& message) { AddDepth(message); });
     }
-  }
-
-  void AddRight(ImageSample image) {
-    if (!right_schedule_.IsDue(image.t_ns)) image.gray.release();
-    stage_.AddRight(std::move(image));
   }
 
   void AddDepth(const sensor_msgs::ImageConstPtr& message) {
@@ -126,7 +131,7 @@ class TrackerNode {
     if (!std::exchange(tracking_is_due_, true)) imu_.RequestNotice();
   }
 
-  // Tracks the next image, unless it still waits for IMU samples or companions.
+  // Tracks the next image, unless it still waits for IMU samples or other images.
   void TrackNext() {
     tracking_is_due_ = false;
     for (const ImuSample& sample : imu_.Take()) stage_.AddImu(sample);
@@ -138,7 +143,7 @@ class TrackerNode {
     last_image_arrival_ = ros::WallTime::now();
     waits_for_first_image_ = false;
     if (image) CheckStamp(image->t_ns);
-    if (image) stage_.AddImage(std::move(*image));
+    if (image) stage_.AddImage(0, std::move(*image));
     ScheduleTracking();
     drop_warner_.Check(Drops());
   }
@@ -169,7 +174,7 @@ class TrackerNode {
       found = frame.has_value();
       if (frame) Publish(*frame);
     });
-    if (!done) stage_.tracker().Reset();
+    if (!done) stage_.ForEachTracker([](auto* tracker) { tracker->Reset(); });
     return found;
   }
 
@@ -190,19 +195,20 @@ class TrackerNode {
     features_in_last_image_ = message.points.size();
     last_tracked_ = ros::WallTime::now();
     tracking_ms_ = frame.tracking_ms;
-    image_faults_.Set(frame.features.t_ns, Traits::Finding(stage_.tracker()));
+    image_faults_.Set(frame.features.t_ns, stage_.Finding(&Traits::Finding));
     if (!frame.publish && !Traits::kEveryImage) return;
     feature_publisher_.publish(message);
     feature_stream_.Add(frame.features.t_ns);
-    if (show_track_ && annotated_publisher_.getNumSubscribers() > 0) {
-      annotated_publisher_.publish(ToMessage(stage_.tracker().DrawTracks(), frame.features.t_ns,
-                                             config_.output.camera_frame));
+    for (size_t i = 0; show_track_ && i < annotated_publishers_.size(); ++i) {
+      if (annotated_publishers_[i].getNumSubscribers() == 0) continue;
+      annotated_publishers_[i].publish(
+          ToMessage(stage_.DrawTracks(i), frame.features.t_ns, config_.output.camera_frame));
     }
   }
 
   DropCounts Drops() {
     DropCounts drops = {images_.unreadable(), errors_.count()};
-    if (config_.sensor.second_camera) drops.push_back(right_images_.unreadable());
+    for (const auto& images : other_images_) drops.push_back(images->unreadable());
     if (depth_subscriber_) drops.push_back(unreadable_depth_);
     Append(ToDropCounts(stage_.counts()), &drops);
     drops.push_back(
@@ -233,16 +239,17 @@ class TrackerNode {
     for (StreamMonitor* stream : {&images_.stream(), &imu_.stream(), &feature_stream_}) {
       stream->Report(&status);
     }
-    if (config_.sensor.second_camera) right_images_.stream().Report(&status);
+    for (const auto& images : other_images_) images->stream().Report(&status);
     if (depth_subscriber_) depth_stream_.Report(&status);
     for (const DropCount& drop : Drops()) status.add(drop.cause, drop.count);
   }
 
   // Describes what seems to be wrong with the images, or was.
   Finding ImageFinding() {
-    if (config_.sensor.second_camera &&
-        right_images_.stream().Silence() > StreamMonitor::kSilence) {
-      return {"second camera: no messages on " + right_images_.topic(), true};
+    for (const auto& images : other_images_) {
+      if (images->stream().Silence() > StreamMonitor::kSilence) {
+        return {"no messages on " + images->topic() + ": its camera is not used", true};
+      }
     }
     if (depth_subscriber_ && depth_stream_.Silence() > StreamMonitor::kSilence) {
       return {"depth: no messages on " + depth_subscriber_.getTopic(), true};
@@ -256,7 +263,7 @@ class TrackerNode {
 
   const Config config_;
   Stage stage_;
-  MatchSchedule right_schedule_;
+  MatchSchedule schedule_;
   bool show_track_ = true;
   DropWarner drop_warner_;
   ConstantStamp image_stamps_;
@@ -274,7 +281,7 @@ class TrackerNode {
   ros::WallTime last_tracked_ = ros::WallTime::now();
   ros::Publisher feature_publisher_;
   ros::Publisher restart_publisher_;
-  image_transport::Publisher annotated_publisher_;
+  std::vector<image_transport::Publisher> annotated_publishers_;  // by tracked camera
   diagnostic_updater::Updater diagnostics_;
   RunTimeSettings<Settings> settings_;
 
@@ -284,7 +291,7 @@ class TrackerNode {
   // uses nothing else.
   ImuInbox imu_{node_, config_.sensor.imu_topic, [this] { TrackNext(); }};
   ImageSubscription images_;
-  ImageSubscription right_images_{"second_camera_images"};
+  std::vector<std::unique_ptr<ImageSubscription>> other_images_;  // of cameras 1, 2, ...
   ros::Subscriber depth_subscriber_;
   ros::WallTimer flush_timer_;
   ros::WallTimer diagnostics_timer_;

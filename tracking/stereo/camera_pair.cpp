@@ -21,41 +21,46 @@ constexpr double kMinDeterminant = 1e-6;  // determinant of the projection's der
 }  // namespace
 
 CameraPair::CameraPair(std::shared_ptr<const CameraModel> first,
-                       std::shared_ptr<const CameraModel> second, const Rigid3d& T_C1_C)
-    : first_(std::move(first)), second_(std::move(second)), T_C1_C_(T_C1_C), R_C1_C_(T_C1_C.R()) {}
+                       std::shared_ptr<const CameraModel> second, const Rigid3d& T_S_C,
+                       const StereoPair& numbers)
+    : first_(std::move(first)),
+      second_(std::move(second)),
+      T_S_C_(T_S_C),
+      R_S_C_(T_S_C.R()),
+      numbers_(numbers) {}
 
 std::optional<Eigen::Vector2d> CameraPair::Project(const Eigen::Vector2d& xy,
                                                    double inverse_depth) const {
-  return second_->Project(R_C1_C_ * xy.homogeneous() + inverse_depth * T_C1_C_.translation);
+  return second_->Project(R_S_C_ * xy.homogeneous() + inverse_depth * T_S_C_.translation);
 }
 
 std::optional<Eigen::Vector2d> CameraPair::Transfer(const Eigen::Vector2d& xy,
                                                     double inverse_depth) const {
-  const Eigen::Vector3d p_C1 = R_C1_C_ * xy.homogeneous() + inverse_depth * T_C1_C_.translation;
-  if (!(p_C1.z() > kMinDepthRatio)) return std::nullopt;
-  return p_C1.hnormalized();
+  const Eigen::Vector3d p_S = R_S_C_ * xy.homogeneous() + inverse_depth * T_S_C_.translation;
+  if (!(p_S.z() > kMinDepthRatio)) return std::nullopt;
+  return p_S.hnormalized();
 }
 
-// The point R x + rho t of C1 is parallel to the ray b: (R x + rho t) x b = 0.
-double CameraPair::InverseDepth(const Eigen::Vector2d& xy, const Eigen::Vector2d& xy_C1) const {
-  const Eigen::Vector3d b = xy_C1.homogeneous();
-  const Eigen::Vector3d far = (R_C1_C_ * xy.homogeneous()).cross(b);
-  const Eigen::Vector3d per_inverse_depth = T_C1_C_.translation.cross(b);
+// The point R x + rho t of S is parallel to the ray b: (R x + rho t) x b = 0.
+double CameraPair::InverseDepth(const Eigen::Vector2d& xy, const Eigen::Vector2d& xy_S) const {
+  const Eigen::Vector3d b = xy_S.homogeneous();
+  const Eigen::Vector3d far = (R_S_C_ * xy.homogeneous()).cross(b);
+  const Eigen::Vector3d per_inverse_depth = T_S_C_.translation.cross(b);
   return -far.dot(per_inverse_depth) /
          std::max(per_inverse_depth.squaredNorm(), kMinBaseline * kMinBaseline);
 }
 
 double CameraPair::InverseDepthPerPixel() const {
-  return 1 / (second_->FocalLength() * std::max(T_C1_C_.translation.norm(), kMinBaseline));
+  return 1 / (second_->FocalLength() * std::max(T_S_C_.translation.norm(), kMinBaseline));
 }
 
 std::optional<Eigen::Matrix2d> CameraPair::Warp(const Eigen::Vector2d& xy,
                                                 double inverse_depth) const {
-  const Eigen::Vector3d p_C1 = R_C1_C_ * xy.homogeneous() + inverse_depth * T_C1_C_.translation;
+  const Eigen::Vector3d p_S = R_S_C_ * xy.homogeneous() + inverse_depth * T_S_C_.translation;
   Eigen::Matrix<double, 2, 3> d_first_d_ray, d_second_d_point;
   if (!first_->Project(xy.homogeneous(), &d_first_d_ray)) return std::nullopt;
-  if (!second_->Project(p_C1, &d_second_d_point)) return std::nullopt;
-  const Eigen::Matrix2d d_second_d_xy = d_second_d_point * R_C1_C_.leftCols<2>();
+  if (!second_->Project(p_S, &d_second_d_point)) return std::nullopt;
+  const Eigen::Matrix2d d_second_d_xy = d_second_d_point * R_S_C_.leftCols<2>();
   const Eigen::Matrix2d d_first_d_xy = d_first_d_ray.leftCols<2>();
   if (std::abs(d_first_d_xy.determinant()) < kMinDeterminant) return std::nullopt;
   return d_second_d_xy * d_first_d_xy.inverse();
@@ -97,11 +102,11 @@ void CameraPair::AppendBetween(const CurvePoint& from, const CurvePoint& to, dou
   }
 }
 
-std::optional<CameraPair> CameraPairOf(const SensorConfig& sensor) {
-  if (!sensor.second_camera) return std::nullopt;
-  return CameraPair(CameraModel::Create(sensor.camera),
-                    CameraModel::Create(sensor.second_camera->camera),
-                    sensor.second_camera->T_B_C.Inverse() * sensor.T_B_C);
+CameraPair CameraPairOf(const SensorConfig& sensor, const StereoPair& numbers) {
+  const CameraSensor &first = sensor.cameras[numbers.first],
+                     &second = sensor.cameras[numbers.second];
+  return {CameraModel::Create(first.parameters), CameraModel::Create(second.parameters),
+          second.T_B_C.Inverse() * first.T_B_C, numbers};
 }
 
 }  // namespace plm_vins

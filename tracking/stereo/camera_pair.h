@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/camera/camera_model.h"
-#include "common/config/sensor_config.h"
+#include "common/config/stereo_pairs.h"
 #include "common/geometry/rigid3.h"
 
 namespace plm_vins {
@@ -19,24 +19,24 @@ struct CurvePoint {
 };
 
 // Two rigidly mounted cameras that expose at the same time. A ray (x, y, 1) of the first camera C
-// projects to an epipolar curve in the raw image of the second camera C1, bent by distortion.
+// projects to an epipolar curve in the raw image of the second camera S, bent by distortion.
 class CameraPair {
  public:
   CameraPair(std::shared_ptr<const CameraModel> first, std::shared_ptr<const CameraModel> second,
-             const Rigid3d& T_C1_C);
+             const Rigid3d& T_S_C, const StereoPair& numbers = {});
 
   // Returns the pixel in the second camera of the point at this inverse depth [1/m] on the ray of
   // `xy`. Negative inverse depths continue the curve beyond infinity. Returns nullopt if the second
   // camera does not observe the point.
   std::optional<Eigen::Vector2d> Project(const Eigen::Vector2d& xy, double inverse_depth) const;
 
-  // Returns the point of Project() in normalized, undistorted coordinates of C1; nullopt if it is
-  // not in front of C1.
+  // Returns the point of Project() in normalized, undistorted coordinates of S; nullopt if it is
+  // not in front of S.
   std::optional<Eigen::Vector2d> Transfer(const Eigen::Vector2d& xy, double inverse_depth) const;
 
-  // Returns the inverse depth [1/m] at which the ray of `xy` comes closest to that of `xy_C1`, both
+  // Returns the inverse depth [1/m] at which the ray of `xy` comes closest to that of `xy_S`, both
   // normalized and undistorted: least squares over the epipolar plane.
-  double InverseDepth(const Eigen::Vector2d& xy, const Eigen::Vector2d& xy_C1) const;
+  double InverseDepth(const Eigen::Vector2d& xy, const Eigen::Vector2d& xy_S) const;
 
   // Change of a distant point's inverse depth on the optical axis per pixel of disparity [1/m].
   double InverseDepthPerPixel() const;
@@ -51,26 +51,30 @@ class CameraPair {
   std::vector<CurvePoint> Curve(const Eigen::Vector2d& xy, double from, double to) const;
 
   // Returns the pair with the roles exchanged.
-  CameraPair Swapped() const { return {second_, first_, T_C1_C_.Inverse()}; }
-  // Returns the same cameras with another mounting.
-  CameraPair With(const Rigid3d& T_C1_C) const { return {first_, second_, T_C1_C}; }
+  CameraPair Swapped() const {
+    return {second_, first_, T_S_C_.Inverse(), {numbers_.second, numbers_.first}};
+  }
+  // Returns the same cameras with other extrinsics.
+  CameraPair With(const Rigid3d& T_S_C) const { return {first_, second_, T_S_C, numbers_}; }
 
   const CameraModel& first() const { return *first_; }
   const CameraModel& second() const { return *second_; }
   const std::shared_ptr<const CameraModel>& second_camera() const { return second_; }
-  const Rigid3d& T_C1_C() const { return T_C1_C_; }
+  const Rigid3d& T_S_C() const { return T_S_C_; }
+  const StereoPair& numbers() const { return numbers_; }  // of the cameras
 
  private:
   void AppendBetween(const CurvePoint& from, const CurvePoint& to, double length_px,
                      std::vector<CurvePoint>* curve) const;
 
   std::shared_ptr<const CameraModel> first_, second_;
-  Rigid3d T_C1_C_;
-  Eigen::Matrix3d R_C1_C_;
+  Rigid3d T_S_C_;
+  Eigen::Matrix3d R_S_C_;
+  StereoPair numbers_;
 };
 
-// Returns the cameras of a configuration, or nullopt if it has only one. Throws
-// std::invalid_argument as CameraModel::Create() does.
-std::optional<CameraPair> CameraPairOf(const SensorConfig& sensor);
+// Returns two cameras of a configuration. Throws std::invalid_argument as CameraModel::Create()
+// does.
+CameraPair CameraPairOf(const SensorConfig& sensor, const StereoPair& numbers);
 
 }  // namespace plm_vins

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/core/fast_math.hpp>
 
-#include "tracking/image_sampling.h"
+#include "tracking/images/image_sampling.h"
 
 namespace plm_vins {
 namespace {

@@ -33,7 +33,7 @@ constexpr double kScaleDeviationPerSecond = 0.015;  // relative [1/s]
 constexpr double kMaxScaleDeviation = 0.075;
 
 // Returns whether the depth of points is measured in single images.
-bool HasDepth(const SensorConfig& sensor) { return sensor.second_camera || sensor.depth; }
+bool HasDepth(const SensorConfig& sensor) { return sensor.cameras.size() > 1 || sensor.depth; }
 
 // If initialization with depths fails, they may be wrong, so the first window ignores them.
 void ForgetDepths(std::vector<FrameMeasurement>* frames) {
@@ -74,25 +74,25 @@ Initializer::Initializer(const Config& config)
                                                             : kStandstillDuration)),
       quiet_standstill_(config.sensor.imu_noise, QuietOptions()) {
   if (sensor_.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
-    const double focal_length = CameraModel::Create(sensor_.camera)->FocalLength();
+    const double focal_length = CameraModel::Create(sensor_.cameras[0].parameters)->FocalLength();
     calibrator_.emplace(sensor_.imu_noise, point_noise_px_ / focal_length);
   }
 }
 
 void Initializer::KeepRotation(const Initializer& other) {
   if (other.calibrator_) return;
-  SetRotation(other.sensor_.T_B_C.rotation);
+  SetRotation(other.sensor_.cameras[0].T_B_C.rotation);
   calibrator_.reset();
 }
 
 // Moves the second camera as well, which is mounted on the first.
 void Initializer::SetRotation(const Eigen::Quaterniond& R_B_C) {
-  const Rigid3d T_B_C(R_B_C, sensor_.T_B_C.translation);
-  if (sensor_.second_camera) {
-    Rigid3d& T_B_C1 = sensor_.second_camera->T_B_C;
-    T_B_C1 = T_B_C * sensor_.T_B_C.Inverse() * T_B_C1;
+  const Rigid3d T_B_C(R_B_C, sensor_.cameras[0].T_B_C.translation);
+  if (sensor_.cameras.size() > 1) {
+    Rigid3d& T_B_C1 = sensor_.cameras[1].T_B_C;
+    T_B_C1 = T_B_C * sensor_.cameras[0].T_B_C.Inverse() * T_B_C1;
   }
-  sensor_.T_B_C = T_B_C;
+  sensor_.cameras[0].T_B_C = T_B_C;
 }
 
 void Initializer::StartOver(const std::string& reason) {
@@ -164,7 +164,7 @@ std::optional<InitializationResult> Initializer::TryStandstill(int64_t since_ns)
   reason_.clear();
   return InitializationResult{{{buffer_.back(), *state}},
                               true,
-                              sensor_.T_B_C,
+                              sensor_.cameras[0].T_B_C,
                               std::abs(ExcessOfGravity(samples, sensor_.gravity_norm))};
 }
 
@@ -206,7 +206,7 @@ std::optional<InitializationResult> Initializer::TryMotion() {
   if (!states) return std::nullopt;
   reason_.clear();
   InitializationResult result;
-  result.T_B_C = sensor_.T_B_C;
+  result.T_B_C = sensor_.cameras[0].T_B_C;
   for (size_t i = 0; i < frames.size(); ++i) {
     result.frames.push_back({std::move(frames[i]), (*states)[i]});
   }

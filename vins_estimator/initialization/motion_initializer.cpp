@@ -73,7 +73,7 @@ Attempt::Attempt(const std::vector<FrameMeasurement>& frames, const SensorConfig
                  std::string* reason)
     : frames_(frames),
       sensor_(sensor),
-      focal_length_(CameraModel::Create(sensor.camera)->FocalLength()),
+      focal_length_(CameraModel::Create(sensor.cameras[0].parameters)->FocalLength()),
       noise_px_(point_noise_px),
       options_(options),
       reason_(reason) {
@@ -91,7 +91,7 @@ Attempt::Attempt(const std::vector<FrameMeasurement>& frames, const SensorConfig
 // Returns the rotation of the body over the interval, measured by the camera.
 std::optional<RotationMeasurement> Attempt::MeasureRotation(int interval) const {
   const Preintegration& imu = preintegrations_[interval];
-  const Eigen::Quaterniond R_B_C = sensor_.T_B_C.rotation;
+  const Eigen::Quaterniond R_B_C = sensor_.cameras[0].T_B_C.rotation;
   const Eigen::Quaterniond R_C1_C0 = R_B_C.conjugate() * imu.delta_q().conjugate() * R_B_C;
   const auto pose = EstimateRelativePose(FindCorrespondences(tracks_, interval, interval + 1),
                                          R_C1_C0, noise_px_ / focal_length_, reason_);
@@ -132,7 +132,8 @@ void Attempt::ChainRotations() {
 
 bool Attempt::Reconstruct() {
   std::vector<Eigen::Quaterniond> R_G_C;
-  for (const Eigen::Quaterniond& R_G_B : R_G_B_) R_G_C.push_back(R_G_B * sensor_.T_B_C.rotation);
+  for (const Eigen::Quaterniond& R_G_B : R_G_B_)
+    R_G_C.push_back(R_G_B * sensor_.cameras[0].T_B_C.rotation);
   const GlobalSfmOptions options{focal_length_, noise_px_, options_.min_parallax_px};
   const auto structure = ReconstructStructure(tracks_, R_G_C, options, reason_);
   if (structure) structure_ = *structure;
@@ -140,20 +141,21 @@ bool Attempt::Reconstruct() {
 }
 
 Rigid3d Attempt::T_C_C1() const {
-  if (!sensor_.second_camera) return {};
-  return sensor_.T_B_C.Inverse() * sensor_.second_camera->T_B_C;
+  if (sensor_.cameras.size() == 1) return {};
+  return sensor_.cameras[0].T_B_C.Inverse() * sensor_.cameras[1].T_B_C;
 }
 
 // Replaces EstimateBias() and Reconstruct() if points have a depth in single images.
 bool Attempt::ReconstructInStereo() {
   ChainRotations();  // from the biased gyroscope, as initial values
   std::vector<Eigen::Quaterniond> R_G_C;
-  for (const Eigen::Quaterniond& R_G_B : R_G_B_) R_G_C.push_back(R_G_B * sensor_.T_B_C.rotation);
+  for (const Eigen::Quaterniond& R_G_B : R_G_B_)
+    R_G_C.push_back(R_G_B * sensor_.cameras[0].T_B_C.rotation);
   const StereoStructureOptions options{T_C_C1(), noise_px_ / focal_length_,
                                        kMinStereoAngle_px / focal_length_};
   const auto stereo = ReconstructFromStereo(tracks_, R_G_C, options, reason_);
   if (!stereo) return false;
-  const Eigen::Quaterniond R_B_C = sensor_.T_B_C.rotation;
+  const Eigen::Quaterniond R_B_C = sensor_.cameras[0].T_B_C.rotation;
   std::vector<RotationMeasurement> rotations;
   for (size_t i = 0; i < preintegrations_.size(); ++i) {
     // Two errors of about equal size have half the information of one.
@@ -174,7 +176,7 @@ bool Attempt::ReconstructInStereo() {
 // Takes over positions and points from the frame of one of the cameras.
 void Attempt::AdoptStereo(const StereoStructure& stereo) {
   const Rigid3d& T_S_C0 = stereo.T_G_C.front();
-  const Eigen::Quaterniond R_G_S = sensor_.T_B_C.rotation * T_S_C0.rotation.conjugate();
+  const Eigen::Quaterniond R_G_S = sensor_.cameras[0].T_B_C.rotation * T_S_C0.rotation.conjugate();
   const auto in_G = [&](const Eigen::Vector3d& p_S) -> Eigen::Vector3d {
     return R_G_S * (p_S - T_S_C0.translation);
   };
@@ -190,7 +192,8 @@ bool Attempt::Align() {
   for (size_t i = 0; i < R_G_B_.size(); ++i) views.push_back({R_G_B_[i], structure_.p_G_C[i]});
   std::vector<const Preintegration*> preintegrations;
   for (const Preintegration& imu : preintegrations_) preintegrations.push_back(&imu);
-  AlignmentOptions options{sensor_.T_B_C, sensor_.gravity_norm, sensor_.accel_bias_deviation};
+  AlignmentOptions options{sensor_.cameras[0].T_B_C, sensor_.gravity_norm,
+                           sensor_.accel_bias_deviation};
   if (options_.stereo) options.scale_deviation = kStereoScaleDeviation;
   const auto alignment = AlignVisualInertial(views, preintegrations, options, reason_);
   if (alignment) alignment_ = *alignment;
@@ -204,10 +207,10 @@ void Attempt::SetStates() {
   const ImuBias bias{alignment_.accel_bias, preintegrations_.front().linearization_bias().gyro};
   states_.resize(frames_.size());
   for (size_t i = 0; i < frames_.size(); ++i) {
-    const Eigen::Quaterniond R_G_C = R_G_B_[i] * sensor_.T_B_C.rotation;
+    const Eigen::Quaterniond R_G_C = R_G_B_[i] * sensor_.cameras[0].T_B_C.rotation;
     const Rigid3d T_W_C(R_W_G * R_G_C, R_W_G * (alignment_.scale * structure_.p_G_C[i]));
     states_[i].t_ns = frames_[i].t_ns;
-    states_[i].SetPose(T_W_C * sensor_.T_B_C.Inverse());
+    states_[i].SetPose(T_W_C * sensor_.cameras[0].T_B_C.Inverse());
     states_[i].velocity() = R_W_G * alignment_.velocity_G[i];
     states_[i].SetBias(bias);
   }
@@ -258,7 +261,7 @@ bool Attempt::CheckAdjustment(const VisualInertialBundle& bundle) {
 }
 
 bool Attempt::Adjust() {
-  VisualInertialBundleOptions options{sensor_.T_B_C, sensor_.gravity_norm,
+  VisualInertialBundleOptions options{sensor_.cameras[0].T_B_C, sensor_.gravity_norm,
                                       noise_px_ / focal_length_, sensor_.accel_bias_deviation};
   options.T_C_C1 = T_C_C1();
   if (sensor_.depth) options.depth_noise = sensor_.depth->noise;

@@ -47,7 +47,8 @@ std::string Describe(const RotationFit& fit) {
 }  // namespace
 
 RotationCheck::RotationCheck(const SensorConfig& sensor, double point_noise_px)
-    : sensor_(sensor), noise_(point_noise_px / CameraModel::Create(sensor.camera)->FocalLength()) {}
+    : sensor_(sensor),
+      noise_(point_noise_px / CameraModel::Create(sensor.cameras[0].parameters)->FocalLength()) {}
 
 void RotationCheck::Add(const FrameMeasurement& measurement, bool in_doubt) {
   if (!frames_.empty() && LeaveGap(measurement.imu)) frames_.clear();
@@ -64,7 +65,7 @@ void RotationCheck::Add(const FrameMeasurement& measurement, bool in_doubt) {
   if (pairs_.size() > kMaxPairs) pairs_.erase(pairs_.begin());
   const bool is_known =
       sensor_.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation;
-  if (++measured_ % kJudgedPairs == 0 && is_known) Judge(sensor_.T_B_C.rotation);
+  if (++measured_ % kJudgedPairs == 0 && is_known) Judge(sensor_.cameras[0].T_B_C.rotation);
 }
 
 void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {

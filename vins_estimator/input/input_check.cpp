@@ -6,7 +6,7 @@
 namespace plm_vins {
 
 InputCheck::InputCheck(const SensorConfig& sensor)
-    : images_("image_topic " + sensor.image_topic),
+    : images_("image_topic " + sensor.cameras[0].image_topic),
       imu_("imu_topic " + sensor.imu_topic),
       td_ns_(ToNanoseconds(sensor.td)),
       content_(sensor.gravity_norm) {}

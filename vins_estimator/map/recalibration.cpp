@@ -87,14 +87,14 @@ void Recalibration::MoveRight(LocalMap* map) const {
 
 void FollowIntrinsics(const SensorConfig& sensor, double max_error, LocalMap* map) {
   SlidingWindow& window = map->window;
-  const CameraParameters& camera = sensor.camera;
+  const CameraParameters& camera = sensor.cameras[0].parameters;
   const Recalibration first(camera.With(window.ray_intrinsics), camera.With(window.intrinsics));
   if (first.LargestMove() >= max_error) {
     first.Move(map);
     window.ray_intrinsics = window.intrinsics;
   }
-  if (!sensor.second_camera) return;
-  const CameraParameters& right = sensor.second_camera->camera;
+  if (sensor.cameras.size() == 1) return;
+  const CameraParameters& right = sensor.cameras[1].parameters;
   const Recalibration second(right.With(window.right_ray_intrinsics),
                              right.With(window.right_intrinsics));
   if (second.LargestMove() >= max_error) {

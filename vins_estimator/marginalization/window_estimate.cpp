@@ -22,12 +22,12 @@ void WindowEstimate::RemoveAnchor(int64_t t_ns) {
 
 Calibration CalibrationIn(const SlidingWindow& window, const SensorConfig& sensor) {
   Calibration calibration;
-  calibration.camera = sensor.camera.With(window.intrinsics);
+  calibration.camera = sensor.cameras[0].parameters.With(window.intrinsics);
   calibration.T_B_C = window.T_B_C();
   calibration.td = window.td;
-  if (sensor.second_camera) {
+  if (sensor.cameras.size() > 1) {
     calibration.T_C_C1 = window.T_C_C1();
-    calibration.right_camera = sensor.second_camera->camera.With(window.right_intrinsics);
+    calibration.right_camera = sensor.cameras[1].parameters.With(window.right_intrinsics);
   }
   return calibration;
 }
@@ -35,14 +35,14 @@ Calibration CalibrationIn(const SlidingWindow& window, const SensorConfig& senso
 WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& options) {
   WindowEstimate estimate{LocalMap(options)};
   SlidingWindow& window = estimate.map.window;
-  window.SetExtrinsic(sensor.T_B_C);
-  if (sensor.second_camera) {
-    window.SetMounting(sensor.T_B_C.Inverse() * sensor.second_camera->T_B_C);
+  window.SetExtrinsic(sensor.cameras[0].T_B_C);
+  if (sensor.cameras.size() > 1) {
+    window.SetMounting(sensor.cameras[0].T_B_C.Inverse() * sensor.cameras[1].T_B_C);
     window.right_intrinsics = window.right_ray_intrinsics =
-        sensor.second_camera->camera.intrinsics();
+        sensor.cameras[1].parameters.intrinsics();
   }
   window.td = sensor.td;
-  window.intrinsics = window.ray_intrinsics = sensor.camera.intrinsics();
+  window.intrinsics = window.ray_intrinsics = sensor.cameras[0].parameters.intrinsics();
   window.gravity_W = Eigen::Vector3d(0, 0, -sensor.gravity_norm);
   return estimate;
 }

@@ -11,15 +11,15 @@ using ExtrinsicMode = SensorConfig::ExtrinsicMode;
 
 bool RefinesCalibration(const SensorConfig& sensor) {
   return sensor.estimate_intrinsics || sensor.estimate_td ||
-         sensor.estimate_extrinsic != ExtrinsicMode::kFixed || sensor.second_camera;
+         sensor.estimate_extrinsic != ExtrinsicMode::kFixed || sensor.cameras.size() > 1;
 }
 
 Config WithCalibration(const Calibration& calibration, Config config) {
   SensorConfig& sensor = config.sensor;
-  sensor.camera = calibration.camera;
-  sensor.T_B_C = calibration.T_B_C;
-  if (calibration.right_camera) sensor.second_camera->camera = *calibration.right_camera;
-  if (calibration.T_C_C1) sensor.second_camera->T_B_C = sensor.T_B_C * *calibration.T_C_C1;
+  sensor.cameras[0].parameters = calibration.camera;
+  sensor.cameras[0].T_B_C = calibration.T_B_C;
+  if (calibration.right_camera) sensor.cameras[1].parameters = *calibration.right_camera;
+  if (calibration.T_C_C1) sensor.cameras[1].T_B_C = sensor.cameras[0].T_B_C * *calibration.T_C_C1;
   sensor.td = calibration.td;
   // The rotation is known now, so it only needs refinement.
   if (sensor.estimate_extrinsic == ExtrinsicMode::kCalibrateRotation) {

@@ -15,13 +15,13 @@ constexpr double kAnchorNoise = 5.0;  // times the noise of lines
 ProblemOptions::ProblemOptions(const Config& config, double focal_length)
     : manhattan_weight(180 / (M_PI * config.estimator.manhattan_noise)),
       estimate_extrinsic(config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed),
-      estimate_mounting(config.sensor.second_camera.has_value()),
+      estimate_mounting(config.sensor.cameras.size() > 1),
       estimate_depth_stream(config.sensor.depth.has_value()),
       estimate_td(config.sensor.estimate_td),
       estimate_intrinsics(config.sensor.estimate_intrinsics),
-      camera(config.sensor.camera) {
+      camera(config.sensor.cameras[0].parameters) {
   if (config.sensor.depth) depth_weight = 1 / config.sensor.depth->noise;
-  if (config.sensor.second_camera) right_camera = config.sensor.second_camera->camera;
+  if (config.sensor.cameras.size() > 1) right_camera = config.sensor.cameras[1].parameters;
   SetNoise(config.estimator.point_noise / focal_length, config.estimator.line_noise / focal_length);
 }
 

@@ -149,7 +149,7 @@ void EstimatorNode::RestoreIds(const FeatureEvent& event, const char* topic,
               << node_.resolveName(topic)
               << ", so that no feature track lasts: stop all but one (rostopic info lists them); "
                  "if a bag has features, play only its images and IMU (rosbag play FILE --topics "
-              << node_.resolveName(config_.sensor.image_topic) << " "
+              << node_.resolveName(config_.sensor.cameras[0].image_topic) << " "
               << node_.resolveName(config_.sensor.imu_topic) << ")");
     }
   }

@@ -35,7 +35,7 @@ CameraParameters Parameters(Model model, const Eigen::Vector4d& intrinsics,
   return p;
 }
 
-CameraParameters Euroc() { return simulator::DefaultSensors().camera; }
+CameraParameters Euroc() { return simulator::DefaultSensors().cameras[0].parameters; }
 
 CameraParameters Fisheye() {
   return Parameters(Model::kPinholeEquidistant, {380.81, 380.79, 370.3, 247.7},

@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 
 constexpr double kMillionthOfAPixel = 1e-6 / 460;  // normalized
 
-CameraParameters Camera() { return simulator::DefaultSensors().camera; }
+CameraParameters Camera() { return simulator::DefaultSensors().cameras[0].parameters; }
 
 // Transfers rays to a camera whose intrinsics all differ by `share` of 10 %.
 class RayTransfer : public ::testing::TestWithParam<double> {

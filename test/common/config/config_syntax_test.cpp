@@ -32,7 +32,7 @@ TEST_F(ConfigSyntax, ASecondDocumentIsRejected) {
 TEST_F(ConfigSyntax, AcceptsDocumentMarkersAroundOneDocument) {
   const std::string text = Replaced(kShortFile, "%YAML:1.0\n", "%YAML:1.0\n---\n");
   for (const std::string end : {"", "...\n", "---\n"}) {
-    EXPECT_EQ(Load(text + end).sensor.image_topic, "/image");
+    EXPECT_EQ(Load(text + end).sensor.cameras[0].image_topic, "/image");
   }
 }
 

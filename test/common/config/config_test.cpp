@@ -24,8 +24,8 @@ using ::testing::HasSubstr;
 
 TEST_F(ConfigTest, ShortFileGivesTheDefaults) {
   const Config config = Load(kShortFile);
-  EXPECT_EQ(config.sensor.image_topic, "/image");
-  EXPECT_EQ(config.sensor.camera.width, 640);
+  EXPECT_EQ(config.sensor.cameras[0].image_topic, "/image");
+  EXPECT_EQ(config.sensor.cameras[0].parameters.width, 640);
   EXPECT_EQ(config.sensor.estimate_extrinsic, SensorConfig::ExtrinsicMode::kCalibrateRotation);
   EXPECT_EQ(config.points.max_cnt, PointTrackerConfig().max_cnt);
   EXPECT_EQ(config.sensor.imu_noise.gyro_density, ImuNoise().gyro_density);
@@ -35,15 +35,15 @@ TEST_F(ConfigTest, ShortFileGivesTheDefaults) {
 TEST_F(ConfigTest, VinsMonoFileLoadsUnchanged) {
   const Config config = Load(kVinsMonoFile);
   EXPECT_EQ(config.sensor.imu_topic, "/imu0");
-  EXPECT_EQ(config.sensor.camera.model, CameraParameters::Model::kPinholeRadtan);
-  EXPECT_EQ(config.sensor.camera.fx, 461.6);
-  EXPECT_EQ(config.sensor.camera.cy, 248.1);
-  EXPECT_MATRIX_NEAR(config.sensor.camera.distortion,
+  EXPECT_EQ(config.sensor.cameras[0].parameters.model, CameraParameters::Model::kPinholeRadtan);
+  EXPECT_EQ(config.sensor.cameras[0].parameters.fx, 461.6);
+  EXPECT_EQ(config.sensor.cameras[0].parameters.cy, 248.1);
+  EXPECT_MATRIX_NEAR(config.sensor.cameras[0].parameters.distortion,
                      Eigen::Vector4d(-0.2917, 0.08228, 5.333e-5, -1.578e-4), 0.0);
   EXPECT_EQ(config.sensor.estimate_extrinsic, SensorConfig::ExtrinsicMode::kRefine);
   const Eigen::Vector3d optical_axis(0.00414029679422, 0.025715529948, 0.999660727178);
-  EXPECT_MATRIX_NEAR(config.sensor.T_B_C.R().col(2), optical_axis, 1e-9);
-  EXPECT_EQ(config.sensor.T_B_C.translation.y(), -0.064676986768);
+  EXPECT_MATRIX_NEAR(config.sensor.cameras[0].T_B_C.R().col(2), optical_axis, 1e-9);
+  EXPECT_EQ(config.sensor.cameras[0].T_B_C.translation.y(), -0.064676986768);
   EXPECT_EQ(config.publish_rate, 10);
   EXPECT_EQ(config.sensor.td, 0.005);
   EXPECT_TRUE(config.sensor.estimate_td);
@@ -116,7 +116,7 @@ TEST_F(ConfigTest, KannalaBrandtTakesTheNamesOfVins) {
   text = Replaced(text, pinhole,
                   "projection_parameters: {k2: 0.1, k3: 0.2, k4: 0.3, k5: 0.4, "
                   "mu: 380, mv: 381, u0: 310, v0: 230}\n");
-  const CameraParameters camera = Load(text).sensor.camera;
+  const CameraParameters camera = Load(text).sensor.cameras[0].parameters;
   EXPECT_EQ(camera.model, CameraParameters::Model::kPinholeEquidistant);
   EXPECT_MATRIX_NEAR(camera.distortion, Eigen::Vector4d(0.1, 0.2, 0.3, 0.4), 0.0);
   EXPECT_MATRIX_NEAR(Eigen::Vector4d(camera.fx, camera.fy, camera.cx, camera.cy),
@@ -126,7 +126,7 @@ TEST_F(ConfigTest, KannalaBrandtTakesTheNamesOfVins) {
 TEST_F(ConfigTest, EquidistantTakesTheNamesOfKalibr) {
   std::string text = Replaced(kShortFile, "PINHOLE", "EQUIDISTANT");
   text = Replaced(text, "p1: 0, p2: 0", "k3: 0.3, k4: 0.4");
-  const CameraParameters camera = Load(text).sensor.camera;
+  const CameraParameters camera = Load(text).sensor.cameras[0].parameters;
   EXPECT_EQ(camera.model, CameraParameters::Model::kPinholeEquidistant);
   EXPECT_MATRIX_NEAR(camera.distortion, Eigen::Vector4d(0, 0, 0.3, 0.4), 0.0);
 }
@@ -135,7 +135,7 @@ TEST_F(ConfigTest, MeiTakesTheNamesOfVins) {
   std::string text = Replaced(kShortFile, "PINHOLE", "MEI\nmirror_parameters:\n   xi: 0.9");
   text = Replaced(text, "fx: 400, fy: 400, cx: 320, cy: 240",
                   "gamma1: 500, gamma2: 501, u0: 310, v0: 230");
-  const CameraParameters camera = Load(text).sensor.camera;
+  const CameraParameters camera = Load(text).sensor.cameras[0].parameters;
   EXPECT_EQ(camera.model, CameraParameters::Model::kMei);
   EXPECT_EQ(camera.xi, 0.9);
   EXPECT_MATRIX_NEAR(Eigen::Vector4d(camera.fx, camera.fy, camera.cx, camera.cy),
@@ -148,7 +148,7 @@ TEST_F(ConfigTest, OverridesReplaceScalars) {
                                              {"corner_detector", "harris"},
                                              {"zero_velocity_update", "false"}});
   EXPECT_EQ(config.points.max_cnt, 99);
-  EXPECT_EQ(config.sensor.camera.fx, 500);
+  EXPECT_EQ(config.sensor.cameras[0].parameters.fx, 500);
   EXPECT_EQ(config.points.corner_detector, CornerDetectorType::kHarris);
   EXPECT_FALSE(config.estimator.zero_velocity_update);
 }

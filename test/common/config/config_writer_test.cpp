@@ -44,8 +44,9 @@ TEST_F(ConfigWriter, WrittenFileLoadsWithEqualValues) {
     if (std::holds_alternative<std::vector<double>>(values[i].second)) continue;
     EXPECT_EQ(ToText(values[i].second), ToText(expected[i].second)) << values[i].first;
   }
-  EXPECT_MATRIX_NEAR(again.sensor.T_B_C.R(), config.sensor.T_B_C.R(), 1e-11);
-  EXPECT_MATRIX_NEAR(again.sensor.T_B_C.translation, config.sensor.T_B_C.translation, 1e-11);
+  EXPECT_MATRIX_NEAR(again.sensor.cameras[0].T_B_C.R(), config.sensor.cameras[0].T_B_C.R(), 1e-11);
+  EXPECT_MATRIX_NEAR(again.sensor.cameras[0].T_B_C.translation,
+                     config.sensor.cameras[0].T_B_C.translation, 1e-11);
   EXPECT_TRUE(again.warnings.empty());
 }
 
@@ -66,7 +67,7 @@ TEST_F(ConfigWriter, ListsTheOverridesAtItsHead) {
   EXPECT_EQ(Written(config).rfind(
                 "%YAML:1.0\n# From " + config.file +
                     "; values replaced for this run:\n"
-                    "#   pose_graph_save_path: a max_cnt: 9\n#   use_lines: 0\nimage_topic",
+                    "#   pose_graph_save_path: a max_cnt: 9\n#   use_lines: 0\nnum_of_cam",
                 0),
             0u)
       << Written(config);

@@ -132,13 +132,13 @@ class VinsFusionTest : public ConfigTest {
 };
 
 void ExpectRightCamera(const SensorConfig& sensor) {
-  ASSERT_TRUE(sensor.second_camera);
-  const SecondCamera& right = *sensor.second_camera;
+  ASSERT_EQ(sensor.cameras.size(), 2u);
+  const CameraSensor& right = sensor.cameras[1];
   EXPECT_EQ(right.image_topic, "/cam1/image_raw");
-  EXPECT_EQ(right.camera.model, CameraParameters::Model::kPinholeEquidistant);
-  EXPECT_EQ(right.camera.width, 752);
-  EXPECT_EQ(right.camera.fx, 459.5);
-  EXPECT_MATRIX_NEAR(right.camera.distortion, Eigen::Vector4d(0.01, 0.02, -0.03, 0.04), 0.0);
+  EXPECT_EQ(right.parameters.model, CameraParameters::Model::kPinholeEquidistant);
+  EXPECT_EQ(right.parameters.width, 752);
+  EXPECT_EQ(right.parameters.fx, 459.5);
+  EXPECT_MATRIX_NEAR(right.parameters.distortion, Eigen::Vector4d(0.01, 0.02, -0.03, 0.04), 0.0);
   EXPECT_MATRIX_NEAR(right.T_B_C * Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-0.02, 1.05, 0.01),
                      1e-12);
 }
@@ -146,11 +146,11 @@ void ExpectRightCamera(const SensorConfig& sensor) {
 TEST_F(VinsFusionTest, LoadsUnchanged) {
   const Config config = Load(kVinsFusionFile);
   const SensorConfig& sensor = config.sensor;
-  EXPECT_EQ(sensor.image_topic, "/cam0/image_raw");
-  EXPECT_EQ(sensor.camera.fx, 461.5);
-  EXPECT_EQ(sensor.camera.distortion[2], -0.0002);
-  EXPECT_MATRIX_NEAR(sensor.T_B_C * Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-0.02, 0.94, 0.01),
-                     1e-12);
+  EXPECT_EQ(sensor.cameras[0].image_topic, "/cam0/image_raw");
+  EXPECT_EQ(sensor.cameras[0].parameters.fx, 461.5);
+  EXPECT_EQ(sensor.cameras[0].parameters.distortion[2], -0.0002);
+  EXPECT_MATRIX_NEAR(sensor.cameras[0].T_B_C * Eigen::Vector3d(1, 0, 0),
+                     Eigen::Vector3d(-0.02, 0.94, 0.01), 1e-12);
   EXPECT_FALSE(sensor.depth);
   ExpectRightCamera(sensor);
   EXPECT_THAT(config.warnings,
@@ -163,8 +163,8 @@ TEST_F(VinsFusionTest, SecondCameraIsIgnoredWithNumOfCamOne) {
   std::string text = Replaced(kVinsFusionFile, "num_of_cam: 2", "num_of_cam: 1");
   text = Replaced(text, "\"right.yaml\"", "\"there is none.yaml\"");
   const Config config = Load(text);
-  EXPECT_FALSE(config.sensor.second_camera);
-  EXPECT_EQ(config.sensor.camera.fx, 461.5);
+  EXPECT_EQ(config.sensor.cameras.size(), 1u);
+  EXPECT_EQ(config.sensor.cameras[0].parameters.fx, 461.5);
   EXPECT_THAT(config.warnings,
               ElementsAre(AllOf(HasSubstr("keys without effect: body_T_cam1, cam1_calib, "),
                                 HasSubstr("image1_topic"))));
@@ -179,12 +179,12 @@ TEST_F(VinsFusionTest, WrittenFileLoadsWithEqualValues) {
   ExpectRightCamera(again.sensor);
   EXPECT_EQ(EffectiveValues(again).size(), EffectiveValues(config).size());
 
-  config.sensor.second_camera.reset();
+  config.sensor.cameras.resize(1);
   config.sensor.depth = DepthSensor{"/depth", 0.004, 9};
   written.str("");
   WriteConfig(config, &written);
   const SensorConfig sensor = Load(written.str()).sensor;
-  EXPECT_FALSE(sensor.second_camera);
+  EXPECT_EQ(sensor.cameras.size(), 1u);
   ASSERT_TRUE(sensor.depth);
   EXPECT_EQ(sensor.depth->topic, "/depth");
   EXPECT_EQ(sensor.depth->noise, 0.004);
@@ -195,10 +195,10 @@ TEST_F(VinsFusionTest, OverridesReplaceValuesOfACameraFile) {
   const Config config = Load(kVinsFusionFile, {{"projection_parameters.fx", "470"},
                                                {"cam1_projection_parameters.mu", "471"},
                                                {"image_topic", "/other"}});
-  EXPECT_EQ(config.sensor.camera.fx, 470);
-  EXPECT_EQ(config.sensor.second_camera->camera.fx, 471);
-  EXPECT_EQ(config.sensor.image_topic, "/other");
-  EXPECT_FALSE(Load(kVinsFusionFile, {{"num_of_cam", "1"}}).sensor.second_camera);
+  EXPECT_EQ(config.sensor.cameras[0].parameters.fx, 470);
+  EXPECT_EQ(config.sensor.cameras[1].parameters.fx, 471);
+  EXPECT_EQ(config.sensor.cameras[0].image_topic, "/other");
+  EXPECT_EQ(Load(kVinsFusionFile, {{"num_of_cam", "1"}}).sensor.cameras.size(), 1u);
 }
 
 TEST_F(VinsFusionTest, OdometryWithoutImuIsRejected) {
@@ -236,9 +236,8 @@ TEST_F(VinsFusionTest, ContradictionsAreListedAllAtOnce) {
       UnorderedElementsAre(
           AllOf(HasSubstr("image0_topic: contradicts "), HasSubstr("image_topic; remove one")),
           AllOf(HasSubstr("left.yaml:5: image_width: contradicts "), HasSubstr("camera.yaml:13")),
-          HasSubstr("image1_topic: is the same as imu_topic"),
-          HasSubstr("right.yaml:5: image_width: 752 differs from the first camera's 640"),
-          HasSubstr("body_T_cam1: gives both cameras the same position; correct it"),
+          HasSubstr("imu_topic: is the same as image1_topic"),
+          HasSubstr("body_T_cam1: equals the transform of camera 0; correct one of them"),
           HasSubstr("depth_topic: works with one camera only")));
 }
 
@@ -261,7 +260,43 @@ TEST_F(VinsFusionTest, ASecondCameraNeedsItsKeys) {
     EXPECT_THAT(problems, ::testing::Contains(HasSubstr(std::string(": ") + key + ": is missing")));
   }
   EXPECT_EQ(problems.size(), 9u);
-  ExpectProblem("num_of_cam: 3", {"num_of_cam: ", "must be 1 to 2 [cameras]"});
+}
+
+// A rig of `count` cameras; the further ones are copies of the right one at other places.
+std::string Rig(int count) {
+  std::string text =
+      Replaced(kVinsFusionFile, "num_of_cam: 2", "num_of_cam: " + std::to_string(count));
+  for (int i = 2; i < count; ++i) {
+    const std::string number = std::to_string(i);
+    text += "image" + number + "_topic: /cam" + number + "\ncam" + number + "_calib: right.yaml\n";
+    text += "body_T_cam" + number +
+            ": !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: [1, 0, 0, " + number +
+            ", 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n";
+  }
+  return text;
+}
+
+TEST_F(VinsFusionTest, LoadsFourCameras) {
+  const SensorConfig sensor = Load(Rig(4)).sensor;
+  ASSERT_EQ(sensor.cameras.size(), 4u);
+  EXPECT_EQ(sensor.cameras[3].image_topic, "/cam3");
+  EXPECT_EQ(sensor.cameras[3].parameters.fx, 459.5);
+  EXPECT_EQ(sensor.cameras[3].T_B_C.translation.x(), 3);
+}
+
+TEST_F(VinsFusionTest, FiveCamerasAreOneProblem) {
+  ExpectProblemOf(Rig(5), {"num_of_cam: ", "must be 1 to 4 [cameras]"});
+}
+
+TEST_F(VinsFusionTest, AGapInTheNumbersIsOneProblem) {
+  std::string text = Replaced(Rig(3), "image2_topic", "image3_topic");
+  text = Replaced(Replaced(text, "cam2_calib", "cam3_calib"), "body_T_cam2", "body_T_cam3");
+  ExpectProblemOf(text, {"camera 2 has no keys; number the cameras without a gap"});
+}
+
+TEST_F(VinsFusionTest, CamerasMayHaveDifferentSizes) {
+  WriteAs("right.yaml", Replaced(kRight, "752", "848"));
+  EXPECT_EQ(Load(kVinsFusionFile).sensor.cameras[1].parameters.width, 848);
 }
 
 TEST_F(VinsFusionTest, MaskIsUsedIfItExists) {

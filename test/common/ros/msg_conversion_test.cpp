@@ -87,37 +87,49 @@ TEST(FeatureMessage, AcceptsPointsOfBothCamerasOfVinsFusion) {
     const PointFrame read = ToPointFrame(message, &left_out);
     EXPECT_TRUE(HasVelocities(message));
     EXPECT_EQ(left_out, 0);
-    ASSERT_EQ(read.points.size(), 1u);
+    ASSERT_EQ(read.points.size(), 2u);
     EXPECT_EQ(read.points[0].id, 7);
+    EXPECT_EQ(read.points[0].camera, 0);
     EXPECT_EQ(read.points[0].xy, Eigen::Vector2d(0.25, 0));
     EXPECT_EQ(read.points[0].uv_px, Eigen::Vector2d(300.5, 200.25));
     EXPECT_EQ(read.points[0].velocity, Eigen::Vector2d(0.125, -2));
-    EXPECT_EQ(read.points[0].right_search, RightSearch::kFound);
-    EXPECT_EQ(read.points[0].right, Eigen::Vector2d(0.125, 0));
+    EXPECT_EQ(read.points[1].id, 7);
+    EXPECT_EQ(read.points[1].camera, 1);
+    EXPECT_EQ(read.points[1].xy, Eigen::Vector2d(0.125, 0));
+    EXPECT_EQ(read.points[1].uv_px, Eigen::Vector2d(280.5, 200.25));
   }
 }
 
-TEST(FeatureMessage, StereoAndDepthSurviveARoundTrip) {
+TEST(FeatureMessage, CamerasAndDepthSurviveARoundTrip) {
   PointFrame frame;
   frame.t_ns = kStamp;
   frame.points.push_back({1, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
-  frame.points.push_back({2, {0.5, -0.5}, {400.5, 200.25}, {0.125, -2}});
-  frame.points[0].right = Eigen::Vector2d(0.125, -0.5);
-  frame.points[0].right_search = RightSearch::kFound;
-  frame.points[1].right_search = RightSearch::kNotFound;
-  frame.points[1].depth = 2.5;
+  frame.points.push_back({2, {0.5, -0.5}, {400.5, 200.25}, {0.125, -2}, 0, 2.5});
+  frame.points.push_back({1, {0.125, -0.5}, {280.5, 200.25}, {0.125, -2}, 1});
+  frame.points.push_back({9, {0.5, -0.25}, {100.5, 20.25}, {0.25, -1}, 3});
   const sensor_msgs::PointCloud message = ToMessage(frame, "camera");
-  ASSERT_EQ(message.channels.size(), 9u);
-  EXPECT_EQ(message.channels[5].name, "right_search");
-  EXPECT_EQ(message.channels[8].name, "depth");
+  ASSERT_EQ(message.channels.size(), 7u);
+  EXPECT_EQ(message.channels[1].name, "camera_id");
+  EXPECT_EQ(message.channels[6].name, "depth");
   const PointFrame back = ReadPoints(message);
-  ASSERT_EQ(back.points.size(), 2u);
-  for (size_t i = 0; i < 2; ++i) {
+  ASSERT_EQ(back.points.size(), 4u);
+  for (size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(back.points[i].id, frame.points[i].id);
+    EXPECT_EQ(back.points[i].camera, frame.points[i].camera);
+    EXPECT_EQ(back.points[i].xy, frame.points[i].xy);
+    EXPECT_EQ(back.points[i].uv_px, frame.points[i].uv_px);
     EXPECT_EQ(back.points[i].velocity, frame.points[i].velocity);
-    EXPECT_EQ(back.points[i].right, frame.points[i].right);
-    EXPECT_EQ(back.points[i].right_search, frame.points[i].right_search);
     EXPECT_EQ(back.points[i].depth, frame.points[i].depth);
   }
+}
+
+TEST(FeatureMessage, CamerasAreReadInTheirOrder) {
+  PointFrame frame;
+  frame.points.push_back({1, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}, 1});
+  frame.points.push_back({2, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}, 0});
+  const PointFrame back = ReadBack(frame);
+  ASSERT_EQ(back.points.size(), 2u);
+  EXPECT_EQ(back.points[0].id, 2);
 }
 
 TEST(FeatureMessage, DepthAddsOneChannel) {
@@ -132,30 +144,32 @@ TEST(FeatureMessage, DepthAddsOneChannel) {
   EXPECT_EQ(back.points[0].depth, 2.5);
 }
 
-TEST(FeatureMessage, ImpossibleDepthsAndRightPointsAreDropped) {
+TEST(FeatureMessage, ImpossibleCamerasAreDropped) {
   PointFrame frame;
-  frame.points.push_back({1, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
-  frame.points[0].right = Eigen::Vector2d(std::nan(""), 0);
-  frame.points[0].right_search = RightSearch::kFound;
-  EXPECT_TRUE(ReadBack(frame).points.empty());
-  frame.points[0].right_search = static_cast<RightSearch>(77);
-  EXPECT_FALSE(ReadBack(frame).points.at(0).right);
+  frame.points.push_back({1, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}, 1});
+  sensor_msgs::PointCloud message = ToMessage(frame, "camera");
+  for (const float camera : {-1.0f, 4.0f, std::nanf("")}) {
+    message.channels[1].values[0] = camera;
+    int64_t left_out = 0;
+    EXPECT_TRUE(ToPointFrame(message, &left_out).points.empty());
+    EXPECT_EQ(left_out, 1);
+  }
 }
 
-TEST(FeatureMessage, RightSegmentsSurviveARoundTrip) {
+TEST(FeatureMessage, LinesOfFurtherCamerasSurviveARoundTrip) {
   LineFrame frame;
   frame.lines.push_back({7, {0.25, -0.5}, {0.5, 0.125}});
-  frame.lines.push_back({8, {0.25, -0.5}, {0.5, 0.125}});
-  frame.lines[1].right = RightSegment{{0.125, -0.5}, {0.375, 0.125}, {0.25, 0.5}};
+  frame.lines.push_back({7, {0.125, -0.5}, {0.375, 0.125}, 1, {0.25, 0.5}});
   const sensor_msgs::PointCloud message = ToMessage(frame, "camera");
-  EXPECT_EQ(message.channels.size(), 9u);
+  EXPECT_EQ(message.channels.size(), 6u);
   const LineFrame back = ReadLines(message);
   ASSERT_EQ(back.lines.size(), 2u);
-  EXPECT_FALSE(back.lines[0].right);
-  ASSERT_TRUE(back.lines[1].right);
-  EXPECT_EQ(back.lines[1].right->start, frame.lines[1].right->start);
-  EXPECT_EQ(back.lines[1].right->end, frame.lines[1].right->end);
-  EXPECT_EQ(back.lines[1].right->deviation, frame.lines[1].right->deviation);
+  EXPECT_EQ(back.lines[0].camera, 0);
+  EXPECT_TRUE(back.lines[0].deviation.isZero(0));
+  EXPECT_EQ(back.lines[1].camera, 1);
+  EXPECT_EQ(back.lines[1].start, frame.lines[1].start);
+  EXPECT_EQ(back.lines[1].end, frame.lines[1].end);
+  EXPECT_EQ(back.lines[1].deviation, frame.lines[1].deviation);
 }
 
 TEST(FeatureMessage, LinesSurviveARoundTrip) {

@@ -95,15 +95,13 @@ TEST_F(FeatureFile, SurvivesARoundTrip) {
   EXPECT_FALSE(reader.Next());
 }
 
-TEST_F(FeatureFile, StereoAndDepthSurviveARoundTrip) {
+TEST_F(FeatureFile, CamerasAndDepthSurviveARoundTrip) {
   TrackedItem written = FrameItem();
   auto& points = written.frame->points.features.points;
-  points[0].right = Eigen::Vector2d(0.05, 0.21);
-  points[0].right_search = RightSearch::kFound;
-  points[1].right_search = RightSearch::kOffEpipolar;
   points[1].depth = 2.5;
-  written.frame->lines->features.lines[0].right =
-      RightSegment{{0.05, 0.1}, {-0.35, 0.7}, {1e-3, 2e-3}};
+  points.push_back({points[0].id, {0.05, 0.21}, {1, 2}, {0, 0}, 1});
+  auto& lines = written.frame->lines->features.lines;
+  lines.push_back({lines[0].id, {0.05, 0.1}, {-0.35, 0.7}, 2, {1e-3, 2e-3}});
   FeatureFileWriter writer(file_, kValues);
   writer.Add(written);
   writer.Close();
@@ -111,16 +109,15 @@ TEST_F(FeatureFile, StereoAndDepthSurviveARoundTrip) {
   const auto item = reader.Next();
   ASSERT_TRUE(item && item->frame && item->frame->lines);
   const auto& read = item->frame->points.features.points;
-  EXPECT_EQ(read[0].right, points[0].right);
-  EXPECT_EQ(read[0].right_search, RightSearch::kFound);
+  ASSERT_EQ(read.size(), 3u);
   EXPECT_FALSE(read[0].depth);
-  EXPECT_FALSE(read[1].right);
-  EXPECT_EQ(read[1].right_search, RightSearch::kOffEpipolar);
   EXPECT_EQ(read[1].depth, 2.5);
-  const auto& right = item->frame->lines->features.lines[0].right;
-  ASSERT_TRUE(right);
-  EXPECT_EQ(right->end, Eigen::Vector2d(-0.35, 0.7));
-  EXPECT_EQ(right->deviation, Eigen::Vector2d(1e-3, 2e-3));
+  EXPECT_EQ(read[2].camera, 1);
+  EXPECT_EQ(read[2].xy, points[2].xy);
+  const LineObservation& line = item->frame->lines->features.lines.back();
+  EXPECT_EQ(line.camera, 2);
+  EXPECT_EQ(line.end, Eigen::Vector2d(-0.35, 0.7));
+  EXPECT_EQ(line.deviation, Eigen::Vector2d(1e-3, 2e-3));
   EXPECT_FALSE(reader.Next());
 }
 

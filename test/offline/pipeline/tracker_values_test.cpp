@@ -31,6 +31,16 @@ TEST(TrackerValues, AreKeysOfTheTrackers) {
   EXPECT_FALSE(TrackerValues(config).contains("line_min_length"));
 }
 
+TEST(TrackerValues, HaveTheFurtherCamerasAndDepth) {
+  Config config = StillConfig();
+  config.sensor.cameras.push_back(config.sensor.cameras[0]);
+  const Json recorded = TrackerValues(config);
+  EXPECT_EQ(recorded.at("cam1_projection_parameters.fx"), 200);
+  EXPECT_EQ(RecordedOtherwise(recorded, StillConfig()).at("num_of_cam"), 2);
+  config.sensor.depth.emplace().topic = "/depth";
+  EXPECT_TRUE(RecordedOtherwise(recorded, config).contains("depth_topic"));
+}
+
 TEST(RecordedOtherwise, IsEmptyIfOnlyEstimatorKeysDiffer) {
   Config config = StillConfig();
   const Json recorded = Json::parse(TrackerValues(config).dump());
@@ -49,7 +59,7 @@ TEST(RecordedOtherwise, HasRecordedValuesAndAWarning) {
   config.use_lines = true;
   config.points.max_cnt = 30;
   config.publish_rate = 5;
-  config.sensor.camera.cx = 150;
+  config.sensor.cameras[0].parameters.cx = 150;
   const Json otherwise = RecordedOtherwise(recorded, config);
   EXPECT_EQ(otherwise.size(), 4u);
   EXPECT_EQ(otherwise.at("max_cnt"), 60);

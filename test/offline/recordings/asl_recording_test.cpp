@@ -62,7 +62,7 @@ TEST_F(AslRecording, ReadsASecondCameraAndDepthIfTheyAreWanted) {
   cv::imwrite(folder_.File("mav0/cam1/data/a.png"), cv::Mat(4, 6, CV_8UC1));
   cv::imwrite(folder_.File("mav0/depth0/data/d.png"), cv::Mat(4, 6, CV_16UC1, cv::Scalar(2500)));
   const auto contents =
-      ReadAll(OpenAslFolder(folder_.path(), /*with_right=*/true, /*with_depth=*/true).get());
+      ReadAll(OpenAslFolder(folder_.path(), /*cameras=*/2, /*with_depth=*/true).get());
   EXPECT_EQ(contents.order, "mmiimiimxi");  // the last image of cam1 is no image
   EXPECT_THAT(contents.stamps, ElementsAre(5, 10, 10, 10, 15, 20, 20, 25, 30, 30));
   EXPECT_EQ(contents.images[2].at<uint16_t>(1, 2), 2500);
@@ -70,7 +70,7 @@ TEST_F(AslRecording, ReadsASecondCameraAndDepthIfTheyAreWanted) {
 }
 
 TEST_F(AslRecording, ErrorNamesAMissingSecondCamera) {
-  EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path(), /*with_right=*/true); }),
+  EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path(), /*cameras=*/2); }),
               HasSubstr("cam1/data.csv"));
 }
 

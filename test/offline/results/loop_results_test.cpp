@@ -26,7 +26,7 @@ using ::testing::StartsWith;
 class LoopResultsTest : public ::testing::Test {
  protected:
   LoopResultsTest() {
-    CameraParameters& camera = config_.sensor.camera;
+    CameraParameters& camera = config_.sensor.cameras[0].parameters;
     camera.width = 320;
     camera.height = 240;
     camera.fx = camera.fy = 200;
@@ -38,7 +38,7 @@ class LoopResultsTest : public ::testing::Test {
   PipelineFrame FrameAt(double x) {
     t_ns_ += ToNanoseconds(0.5);
     PipelineFrame frame;
-    frame.output.calibration.camera = config_.sensor.camera;
+    frame.output.calibration.camera = config_.sensor.cameras[0].parameters;
     frame.output.t_ns = t_ns_;
     frame.output.has_pose = true;
     frame.output.uncertainty.emplace().pose.setIdentity();
@@ -107,11 +107,11 @@ TEST_F(LoopResultsTest, WritesAllFilesOfARun) {
 
 // Rays of keyframes and landmarks refer to the refined camera.
 TEST_F(LoopResultsTest, HasAModelWhosePointsProjectToTheirCornersWithItsCamera) {
-  CameraParameters refined = config_.sensor.camera;
+  CameraParameters refined = config_.sensor.cameras[0].parameters;
   refined.fx = 206;
   refined.cx = 163;
   refined.distortion = {-0.1, 0.01, 0.001, -0.002};
-  const auto configured_camera = CameraModel::Create(config_.sensor.camera);
+  const auto configured_camera = CameraModel::Create(config_.sensor.cameras[0].parameters);
   const auto refined_camera = CameraModel::Create(refined);
   PipelineFrame frame = FrameAt(0);
   frame.output.calibration.camera = refined;

@@ -92,7 +92,9 @@ class BagRecording : public ::testing::Test {
     std::filesystem::resize_file(file_, static_cast<uintmax_t>(share * size));
   }
 
-  RecordingContents Read() { return ReadAll(OpenBags({file_}, "/cam0/image_raw", "/imu0").get()); }
+  RecordingContents Read() {
+    return ReadAll(OpenBags({file_}, {"/cam0/image_raw"}, "/imu0").get());
+  }
 
   void ExpectComplete(const RecordingContents& contents) {
     EXPECT_EQ(contents.imu.size(), static_cast<size_t>(kSamples));
@@ -108,11 +110,24 @@ class BagRecording : public ::testing::Test {
 
 TEST_F(BagRecording, ReadsRawImages) {
   WriteBag("/cam0/image_raw", RawImage);
-  const auto recording = OpenBags({file_}, "/cam0/image_raw", "/imu0");
+  const auto recording = OpenBags({file_}, {"/cam0/image_raw"}, "/imu0");
   EXPECT_EQ(recording->end_ns(), kStart + (kSamples - 1) * kStep);
   const RecordingContents contents = ReadAll(recording.get());
   ExpectComplete(contents);
   EXPECT_EQ(contents.problems.at("bag_damaged"), 0);
+}
+
+TEST_F(BagRecording, NamesTheKeysOfItsTopics) {
+  WriteBag("/cam0/image_raw", RawImage);
+  {
+    rosbag::Bag bag(file_, rosbag::bagmode::Append);
+    for (const char* topic : {"/cam1", "/depth"}) bag.write(topic, Stamp(0), RawImage(0));
+  }
+  using Kind = RecordingEvent::Kind;
+  const auto recording = OpenBags({file_}, {"/cam0/image_raw", "/cam1"}, "/imu0", "/depth");
+  EXPECT_EQ(recording->Source(Kind::kImage), "image_topic /cam0/image_raw");
+  EXPECT_EQ(recording->Source(Kind::kDepth), "depth_topic /depth");
+  EXPECT_EQ(recording->Source(Kind::kImu), "imu_topic /imu0");
 }
 
 TEST_F(BagRecording, ReadsCompressedImagesBesideTheTopic) {
@@ -136,7 +151,7 @@ TEST_F(BagRecording, ErrorListsExistingTopics) {
 
 TEST_F(BagRecording, ErrorNamesBothMissingTopicsAndTheirKeys) {
   WriteBag("/camera/left", RawImage);
-  EXPECT_THAT(MessageOf([&] { OpenBags({file_}, "/cam0", "/imu"); }),
+  EXPECT_THAT(MessageOf([&] { OpenBags({file_}, {"/cam0"}, "/imu"); }),
               AllOf(HasSubstr("no topic /cam0 ("), HasSubstr("key image_topic"),
                     HasSubstr("no topic /imu ("), HasSubstr("key imu_topic")));
 }
@@ -144,12 +159,12 @@ TEST_F(BagRecording, ErrorNamesBothMissingTopicsAndTheirKeys) {
 TEST_F(BagRecording, FindsATopicWithoutALeadingSlash) {
   WriteBag("cam0/image_raw", RawImage);
   ExpectComplete(Read());
-  ExpectComplete(ReadAll(OpenBags({file_}, "cam0/image_raw", "imu0").get()));
+  ExpectComplete(ReadAll(OpenBags({file_}, {"cam0/image_raw"}, "imu0").get()));
 }
 
 TEST_F(BagRecording, NamesTheTopicsOfImagesAndSamples) {
   WriteBag("/cam0/image_raw/compressed", CompressedImage);
-  const auto recording = OpenBags({file_}, "/cam0/image_raw", "/imu0");
+  const auto recording = OpenBags({file_}, {"/cam0/image_raw"}, "/imu0");
   EXPECT_EQ(recording->Source(RecordingEvent::Kind::kImage),
             "image_topic /cam0/image_raw/compressed");
   EXPECT_EQ(recording->Source(RecordingEvent::Kind::kImu), "imu_topic /imu0");
@@ -157,7 +172,7 @@ TEST_F(BagRecording, NamesTheTopicsOfImagesAndSamples) {
 
 TEST_F(BagRecording, RejectsATopicOfAnotherType) {
   WriteBag("/cam0/image_raw", RawImage);
-  EXPECT_THAT(MessageOf([&] { OpenBags({file_}, "/cam0/image_raw", "/other"); }),
+  EXPECT_THAT(MessageOf([&] { OpenBags({file_}, {"/cam0/image_raw"}, "/other"); }),
               HasSubstr("no topic /other (sensor_msgs/Imu)"));
 }
 
@@ -174,7 +189,7 @@ TEST_F(BagRecording, DropsAChunkThatDoesNotUnpack) {
   const size_t chunk = bytes.find("compression=", bytes.size() / 2);
   for (size_t i = 200; i < 220; ++i) bytes[chunk + i] ^= '\x55';
   folder_.Write("test.bag", bytes);
-  const auto recording = OpenBags({file_}, "/cam0/image_raw", "/imu0");
+  const auto recording = OpenBags({file_}, {"/cam0/image_raw"}, "/imu0");
   const RecordingContents contents = ReadAll(recording.get());
   EXPECT_GT(contents.imu.size(), size_t{kSamples / 2});
   EXPECT_LT(contents.imu.size(), size_t{kSamples});
@@ -219,7 +234,7 @@ TEST_F(BagRecording, CountsImagesOfUnknownEncodingAndContinues) {
     if (i == 10) image.encoding = "secret";
     return image;
   });
-  const auto recording = OpenBags({file_}, "/cam0/image_raw", "/imu0");
+  const auto recording = OpenBags({file_}, {"/cam0/image_raw"}, "/imu0");
   const RecordingContents contents = ReadAll(recording.get());
   EXPECT_EQ(contents.images.size(), static_cast<size_t>(kImages - 1));
   EXPECT_EQ(contents.problems.at("images_unreadable"), 1);

@@ -70,7 +70,7 @@ class BagTopics : public ::testing::Test {
     for (int i = 0; i < kSamples; ++i) bag->write("/imu0", Stamp(i), Imu(i));
   }
 
-  std::unique_ptr<Recording> Open() { return OpenBags({file_}, "/cam0/image_raw", "/imu0"); }
+  std::unique_ptr<Recording> Open() { return OpenBags({file_}, {"/cam0/image_raw"}, "/imu0"); }
 
   void ExpectComplete(const RecordingContents& contents) {
     EXPECT_EQ(contents.images.size(), size_t{kImages});
@@ -114,7 +114,7 @@ TEST_F(BagTopics, ATopicMayHaveImagesAndSamples) {
       if (i % 5 == 0) WriteApart("/data", i, Image(i), &bag);
     }
   }
-  ExpectComplete(ReadAll(OpenBags({file_}, "/data", "/data").get()));
+  ExpectComplete(ReadAll(OpenBags({file_}, {"/data"}, "/data").get()));
 }
 
 TEST_F(BagTopics, NamesTheTopicOfAMessageThatIsMalformed) {

@@ -52,7 +52,7 @@ class JoinedBagsTest : public ::testing::Test {
   }
 
   static std::unique_ptr<Recording> Open(const std::vector<std::string>& files) {
-    return OpenBags(files, "/cam0", "/imu0");
+    return OpenBags(files, {"/cam0"}, "/imu0");
   }
 
   static void ExpectAreAlike(const RecordingContents& a, const RecordingContents& b) {

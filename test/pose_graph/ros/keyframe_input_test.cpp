@@ -29,9 +29,10 @@ nav_msgs::Odometry Pose() {
 class KeyframeInputTest : public ::testing::Test {
  protected:
   KeyframeInputTest() {
-    sensor_.camera = testing::SimpleCamera()->parameters();
-    sensor_.T_B_C = testing::LookingAhead();
-    image_.create(sensor_.camera.height, sensor_.camera.width, CV_8UC1);
+    sensor_.cameras[0].parameters = testing::SimpleCamera()->parameters();
+    sensor_.cameras[0].T_B_C = testing::LookingAhead();
+    image_.create(sensor_.cameras[0].parameters.height, sensor_.cameras[0].parameters.width,
+                  CV_8UC1);
     for (int i = 0; i < 4; ++i) {
       corners_.emplace_back().observation.id = segments_.emplace_back().observation.id = i;
       corners_.back().p_O = Eigen::Vector3d(1, 2, 3);
@@ -65,7 +66,7 @@ TEST_F(KeyframeInputTest, HasTheFramesOfAKeyframe) {
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->corners.size(), 4u);
   EXPECT_EQ(frame->segments.size(), 4u);
-  EXPECT_EQ(frame->T_B_C.translation, sensor_.T_B_C.translation);
+  EXPECT_EQ(frame->T_B_C.translation, sensor_.cameras[0].T_B_C.translation);
   EXPECT_NEAR(frame->covariance(4, 4), 4, 1e-12);
   EXPECT_NEAR(frame->covariance(3, 3), 0, 1e-12);
   for (const auto& [cause, count] : drops_) EXPECT_EQ(count, 0) << cause;
@@ -149,19 +150,19 @@ TEST_F(KeyframeInputTest, CountsMessagesOfAnotherLayout) {
 
 TEST_F(KeyframeInputTest, UsesRefinedIntrinsics) {
   KeyframeInput input(sensor_);
-  CameraParameters refined = sensor_.camera;
+  CameraParameters refined = sensor_.cameras[0].parameters;
   for (const double change_px : {1.0, 2.0}) {
     refined.fx += change_px;
     input.AddCamera(ToCameraInfo(refined, 5, "camera"));
   }
   const auto frame = Assemble(Pose(), &input);
   ASSERT_TRUE(frame && frame->camera);
-  EXPECT_EQ(frame->camera->fx, sensor_.camera.fx + 3);
+  EXPECT_EQ(frame->camera->fx, sensor_.cameras[0].parameters.fx + 3);
 }
 
 TEST_F(KeyframeInputTest, RejectsAnotherCamera) {
   KeyframeInput input(sensor_);
-  CameraParameters refined = sensor_.camera;
+  CameraParameters refined = sensor_.cameras[0].parameters;
   refined.fx += 1;
   input.AddCamera(ToCameraInfo(refined, 5, "camera"));
   EXPECT_EQ(input.Drops().back().count, 0);

@@ -35,7 +35,7 @@ TEST_F(AslFolder, HoldsImagesAndListsAsEuroc) {
   {
     AslRecorder recorder(folder_);
     recorder.Write(ImuSample{1'600'000'000'000'000'005, {0.1, 0.2, 0.3}, {1, 2, 9.8125}});
-    recorder.Write(ImageSample{1'600'000'000'050'000'000, picture});
+    recorder.WriteImage(0, ImageSample{1'600'000'000'050'000'000, picture});
     recorder.Finish();
   }
   EXPECT_NE(
@@ -54,7 +54,7 @@ TEST_F(AslFolder, HoldsTheSecondCameraAndDepth) {
   const cv::Mat1w depth(6, 8, ushort(5432));
   {
     AslRecorder recorder(folder_);
-    recorder.WriteSecond(ImageSample{1'600'000'000'050'000'000, picture});
+    recorder.WriteImage(1, ImageSample{1'600'000'000'050'000'000, picture});
     recorder.WriteDepth(1'600'000'000'050'000'000, depth);
     recorder.Finish();
   }

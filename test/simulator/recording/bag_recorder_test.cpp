@@ -49,7 +49,7 @@ TEST(BagRecorder, NoticesAFullDisk) {
     EXPECT_THROW(
         {
           for (int i = 0; i < 5; ++i) {
-            recorder->Write(ImageSample{kStart + i, cv::Mat1b(100, 300, uchar(77))});
+            recorder->WriteImage(0, ImageSample{kStart + i, cv::Mat1b(100, 300, uchar(77))});
           }
           recorder->Finish();
         },
@@ -62,11 +62,11 @@ TEST(BagRecorder, NoticesAFullDisk) {
 TEST(BagRecorder, WritesTheTopicsOfTheConfiguration) {
   const std::string file = ::testing::TempDir() + "plm_vins_bag_recorder_test.bag";
   SensorConfig sensors;
-  sensors.image_topic = "camera/image";
+  sensors.cameras[0].image_topic = "camera/image";
   sensors.imu_topic = "camera/imu";
   const auto recorder = MakeBagRecorder(file, sensors);
   recorder->Write(ImuSample{kStart, {0.1, 0.2, 0.3}, {1, 2, 9.8}});
-  recorder->Write(ImageSample{kStart + 5'000'000, cv::Mat1b(6, 8, uchar(77))});
+  recorder->WriteImage(0, ImageSample{kStart + 5'000'000, cv::Mat1b(6, 8, uchar(77))});
   recorder->Write(ImuSample{kStart + 7'000'000, {0.4, 0.5, 0.6}, {1, 2, 9.9}});
   recorder->Finish();
   {
@@ -93,10 +93,10 @@ TEST(BagRecorder, WritesTheTopicsOfTheConfiguration) {
 TEST(BagRecorder, WritesTheSecondCameraAndDepth) {
   const std::string file = ::testing::TempDir() + "plm_vins_bag_second_camera.bag";
   SensorConfig sensors;
-  sensors.second_camera.emplace().image_topic = "camera/right";
+  sensors.cameras.emplace_back().image_topic = "camera/right";
   sensors.depth.emplace().topic = "camera/depth";
   const auto recorder = MakeBagRecorder(file, sensors);
-  recorder->WriteSecond(ImageSample{kStart, cv::Mat1b(6, 8, uchar(77))});
+  recorder->WriteImage(1, ImageSample{kStart, cv::Mat1b(6, 8, uchar(77))});
   recorder->WriteDepth(kStart, cv::Mat1w(6, 8, ushort(5432)));
   recorder->Finish();
   {

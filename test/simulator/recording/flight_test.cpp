@@ -18,11 +18,11 @@ class MemoryRecorder : public Recorder {
     imu.push_back(sample);
     order.push_back(sample.t_ns);
   }
-  void Write(const ImageSample& image) override {
+  void WriteImage(int camera, const ImageSample& image) override {
+    if (camera > 0) return second.push_back(image);
     images.push_back(image);
     order.push_back(image.t_ns);
   }
-  void WriteSecond(const ImageSample& image) override { second.push_back(image); }
   void WriteDepth(int64_t t_ns, const cv::Mat1w& depth) override {
     depths.push_back(depth);
     EXPECT_EQ(t_ns, images.back().t_ns);
@@ -41,7 +41,7 @@ FlightOptions SmallFlight() {
   options.texture = TextureStyle::kWeak;
   options.duration = 2.0;
   options.frame_rate_hz = 10.0;
-  CameraParameters& camera = options.sensors.camera;
+  CameraParameters& camera = options.sensors.cameras[0].parameters;
   camera.width = 188;
   camera.height = 120;
   for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *value *= 0.25;
@@ -128,8 +128,8 @@ TEST(Flight, GroundTruthBelongsToTheImuSamples) {
 // Returns the mean difference in brightness of a point in both images, the depth of which is known.
 double MeanDifference(const MemoryRecorder& recording, const SensorConfig& sensors,
                       const Rigid3d& T_C1_C0) {
-  const auto left = CameraModel::Create(sensors.camera);
-  const auto right = CameraModel::Create(sensors.second_camera->camera);
+  const auto left = CameraModel::Create(sensors.cameras[0].parameters);
+  const auto right = CameraModel::Create(sensors.cameras[1].parameters);
   double sum = 0;
   int count = 0;
   for (size_t i = 0; i < recording.images.size(); ++i) {
@@ -156,12 +156,12 @@ TEST(Flight, SecondCameraAndDepthAgreeOnWherePointsAre) {
   FlightOptions options = SmallFlight();
   options.texture = TextureStyle::kRich;
   options.imaging.vignetting = 0;
-  SecondCamera& second = options.sensors.second_camera.emplace();
-  second.camera = options.sensors.camera;
-  second.camera.fx *= 1.03;
-  second.camera.cx += 4;
+  CameraSensor& second = options.sensors.cameras.emplace_back();
+  second.parameters = options.sensors.cameras[0].parameters;
+  second.parameters.fx *= 1.03;
+  second.parameters.cx += 4;
   const Rigid3d T_C0_C1(SO3Exp({0.01, 0.02, -0.03}), {0.11, 0.01, -0.02});
-  second.T_B_C = options.sensors.T_B_C * T_C0_C1;
+  second.T_B_C = options.sensors.cameras[0].T_B_C * T_C0_C1;
   options.sensors.depth = DepthSensor{"/depth", 0, 20};
   const MemoryRecorder recording = Record(options);
   ASSERT_EQ(recording.second.size(), recording.images.size());
@@ -176,8 +176,7 @@ TEST(Flight, FurtherSensorsDoNotChangeTheImages) {
   FlightOptions options = SmallFlight();
   EXPECT_TRUE(Reference().second.empty());
   EXPECT_TRUE(Reference().depths.empty());
-  options.sensors.second_camera.emplace().camera = options.sensors.camera;
-  options.sensors.second_camera->T_B_C = options.sensors.T_B_C;
+  options.sensors.cameras.push_back(options.sensors.cameras[0]);
   options.sensors.depth = DepthSensor{"/depth"};
   const MemoryRecorder recording = Record(options);
   for (size_t i = 0; i < recording.images.size(); ++i) {

@@ -24,7 +24,7 @@ struct Rig {
   explicit Rig(Motion motion) {
     options.motion = motion;
     options.duration = 12.0;
-    options.R_V_B = ForwardLookingBody(sensors.T_B_C);
+    options.R_V_B = ForwardLookingBody(sensors.cameras[0].T_B_C);
   }
 };
 
@@ -80,16 +80,17 @@ TEST(CameraSimulator, BlurIsCenteredOnTheExposure) {
   Rig rig(Motion::kFast);
   rig.options.extent = {1, 0.6, 0.3};
   const Trajectory trajectory(rig.options);
-  const auto model = CameraModel::Create(rig.sensors.camera);
+  const auto model = CameraModel::Create(rig.sensors.cameras[0].parameters);
   const Scene scene = HalfBrightWall();
   ImagingOptions imaging = Ideal();
   imaging.exposure = 0.012;
-  const CameraSimulator camera(trajectory, scene, rig.sensors.camera, rig.sensors.T_B_C, imaging);
+  const CameraSimulator camera(trajectory, scene, rig.sensors.cameras[0].parameters,
+                               rig.sensors.cameras[0].T_B_C, imaging);
   int checked = 0;
   double speed = 0;  // of the edge [px/s]
   for (double t = 1.5; t < 12; t += 0.25) {
     const auto edge = [&](double time) {
-      return EdgeInMiddleRow(*model, trajectory.At(time).T_W_B * rig.sensors.T_B_C);
+      return EdgeInMiddleRow(*model, trajectory.At(time).T_W_B * rig.sensors.cameras[0].T_B_C);
     };
     const auto expected = edge(t), before = edge(t - 0.005), after = edge(t + 0.005);
     if (!expected || !before || !after) continue;
@@ -107,10 +108,12 @@ TEST(CameraSimulator, ARollingShutterExposesEachRowAtItsOwnTime) {
   const Trajectory trajectory(rig.options);
   const Scene scene = HalfBrightWall();
   ImagingOptions imaging = Ideal();
-  const CameraParameters& parameters = rig.sensors.camera;
-  const CameraSimulator global(trajectory, scene, parameters, rig.sensors.T_B_C, imaging);
+  const CameraParameters& parameters = rig.sensors.cameras[0].parameters;
+  const CameraSimulator global(trajectory, scene, parameters, rig.sensors.cameras[0].T_B_C,
+                               imaging);
   imaging.readout = 0.03;
-  const CameraSimulator rolling(trajectory, scene, parameters, rig.sensors.T_B_C, imaging);
+  const CameraSimulator rolling(trajectory, scene, parameters, rig.sensors.cameras[0].T_B_C,
+                                imaging);
   constexpr double kTime = 4.0;
   const cv::Mat image = rolling.Expose(kTime, 0), unmoved = global.Expose(kTime, 0);
   double greatest = 0;  // difference of a row's sum of pixels between rolling and global
@@ -130,7 +133,8 @@ TEST(CameraSimulator, NoiseHasTheRequestedStrengthAndIsNewInEachImage) {
   imaging.vignetting = 0;
   const Trajectory trajectory(rig.options);
   const Scene scene = GrayWall();
-  const CameraSimulator camera(trajectory, scene, rig.sensors.camera, rig.sensors.T_B_C, imaging);
+  const CameraSimulator camera(trajectory, scene, rig.sensors.cameras[0].parameters,
+                               rig.sensors.cameras[0].T_B_C, imaging);
   const cv::Mat first = camera.Expose(1.0, 1), second = camera.Expose(1.0, 2);
   cv::Scalar mean, deviation;
   cv::meanStdDev(first, mean, deviation);
@@ -149,7 +153,8 @@ TEST(CameraSimulator, CornersAreDarker) {
   const Rig rig(Motion::kStill);
   const Trajectory trajectory(rig.options);
   const Scene scene = GrayWall();
-  const CameraSimulator camera(trajectory, scene, rig.sensors.camera, rig.sensors.T_B_C, imaging);
+  const CameraSimulator camera(trajectory, scene, rig.sensors.cameras[0].parameters,
+                               rig.sensors.cameras[0].T_B_C, imaging);
   const cv::Mat image = camera.Expose(1.0, 0);
   const double center = image.at<uchar>(240, 376), corner = image.at<uchar>(0, 0);
   EXPECT_NEAR(corner / center, 0.6, 0.02);
@@ -159,8 +164,8 @@ TEST(CameraSimulator, SameImageFromAnyNumberOfThreads) {
   const Rig rig(Motion::kFast);
   const Trajectory trajectory(rig.options);
   const Scene scene = HalfBrightWall();
-  const CameraSimulator camera(trajectory, scene, rig.sensors.camera, rig.sensors.T_B_C,
-                               ImagingOptions());
+  const CameraSimulator camera(trajectory, scene, rig.sensors.cameras[0].parameters,
+                               rig.sensors.cameras[0].T_B_C, ImagingOptions());
   const int threads = cv::getNumThreads();
   cv::setNumThreads(1);
   const cv::Mat alone = camera.Expose(1.5, 0);

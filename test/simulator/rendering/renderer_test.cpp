@@ -53,7 +53,7 @@ struct SaddleScene {
 };
 
 CameraParameters Fisheye() {
-  CameraParameters camera = DefaultSensors().camera;
+  CameraParameters camera = DefaultSensors().cameras[0].parameters;
   camera.model = CameraParameters::Model::kPinholeEquidistant;
   camera.fx = camera.fy = 300;
   camera.distortion = {-0.01, 0.02, -0.01, 0.002};
@@ -66,7 +66,7 @@ TEST(Renderer, DepthIsThatOfTheRayThroughThePixel) {
   const int white = AddPlain(&scene, 0.9);
   scene.AddRectangle(Facing(-2, 8, 3.0, 10, 16, white));
   scene.AddRectangle(Facing(-0.5, 0.5, 2.0, 1, 1, white));
-  for (const CameraParameters& parameters : {DefaultSensors().camera, Fisheye()}) {
+  for (const CameraParameters& parameters : {DefaultSensors().cameras[0].parameters, Fisheye()}) {
     const std::shared_ptr<const CameraModel> camera = CameraModel::Create(parameters);
     const Rigid3d T_W_C(SO3Exp({0.2, -0.25, 0.4}), {0.1, -0.05, 0.2});
     const cv::Mat1f depth = Renderer(scene, camera).Depth(T_W_C);
@@ -99,7 +99,7 @@ TEST(Renderer, KnownPointsAppearWhereTheCameraModelProjectsThem) {
   const SaddleScene world;
   Vector2d bias = Vector2d::Zero();
   int total = 0;
-  for (const CameraParameters& parameters : {DefaultSensors().camera, Fisheye()}) {
+  for (const CameraParameters& parameters : {DefaultSensors().cameras[0].parameters, Fisheye()}) {
     const std::shared_ptr<const CameraModel> camera = CameraModel::Create(parameters);
     const Renderer renderer(world.scene, camera);
     for (const Vector3d& tilt : {Vector3d(0, 0, 0), Vector3d(0.2, -0.25, 0.4)}) {
@@ -131,7 +131,7 @@ TEST(Renderer, NearObjectsHideFarOnesAndBacksAreInvisible) {
   scene.AddRectangle(Facing(-0.2, 0.2, 2.0, 0.4, 0.4, bright));
   scene.AddRectangle(Facing(-9, 9, 3.0, 18, 18, dark));
   scene.AddRectangle({{-9, 9, 1.0}, Vector3d::UnitY(), Vector3d::UnitX(), 18, 18, bright});
-  const CameraParameters parameters = DefaultSensors().camera;
+  const CameraParameters parameters = DefaultSensors().cameras[0].parameters;
   const Renderer renderer(scene, CameraModel::Create(parameters));
   const cv::Mat1f image = Render(renderer, parameters, Rigid3d());
   const double dark_value = image(20, 20);
@@ -142,7 +142,7 @@ TEST(Renderer, NearObjectsHideFarOnesAndBacksAreInvisible) {
 TEST(Renderer, BoxesShowAFaceToEverySide) {
   Scene scene;
   scene.AddBox(Rigid3d(), {1, 0.8, 0.6}, AddPlain(&scene, 0.9));
-  const CameraParameters parameters = DefaultSensors().camera;
+  const CameraParameters parameters = DefaultSensors().cameras[0].parameters;
   const Renderer renderer(scene, CameraModel::Create(parameters));
   for (int axis = 0; axis < 3; ++axis) {
     for (double side : {-1.0, 1.0}) {
@@ -158,7 +158,7 @@ TEST(Renderer, BoxesShowAFaceToEverySide) {
 TEST(Renderer, PipesHaveTheirWidth) {
   Scene scene;
   scene.AddPipe({0, -2, 2}, {0, 2, 2}, 0.1, AddPlain(&scene, 0.9));
-  CameraParameters parameters = DefaultSensors().camera;
+  CameraParameters parameters = DefaultSensors().cameras[0].parameters;
   parameters.distortion.setZero();
   const Renderer renderer(scene, CameraModel::Create(parameters));
   const cv::Mat1f image = Render(renderer, parameters, Rigid3d());
@@ -168,7 +168,7 @@ TEST(Renderer, PipesHaveTheirWidth) {
 
 TEST(Renderer, ResultDoesNotDependOnThreads) {
   const SaddleScene world;
-  const CameraParameters parameters = DefaultSensors().camera;
+  const CameraParameters parameters = DefaultSensors().cameras[0].parameters;
   const Renderer renderer(world.scene, CameraModel::Create(parameters));
   const Rigid3d T_W_C(SO3Exp({0.1, 0.2, 0.3}), Vector3d::Zero());
   const int threads = cv::getNumThreads();

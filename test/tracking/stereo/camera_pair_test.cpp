@@ -13,23 +13,23 @@ const Eigen::Vector2d kXy(0.2, -0.15);
 TEST(CameraPairTest, ProjectsLikeTheSecondCamera) {
   const CameraPair pair = StereoCameras();
   for (const double depth : {0.5, 2.0, 50.0}) {
-    const Eigen::Vector3d p_C1 = StereoMounting() * Eigen::Vector3d(depth * kXy.homogeneous());
+    const Eigen::Vector3d p_S = StereoExtrinsics() * Eigen::Vector3d(depth * kXy.homogeneous());
     const auto pixel = pair.Project(kXy, 1 / depth);
     ASSERT_TRUE(pixel);
-    EXPECT_LT((*pixel - *pair.second().Project(p_C1)).norm(), 1e-9) << depth;
-    EXPECT_LT((*pair.Transfer(kXy, 1 / depth) - p_C1.hnormalized()).norm(), 1e-12) << depth;
+    EXPECT_LT((*pixel - *pair.second().Project(p_S)).norm(), 1e-9) << depth;
+    EXPECT_LT((*pair.Transfer(kXy, 1 / depth) - p_S.hnormalized()).norm(), 1e-12) << depth;
   }
 }
 
 TEST(CameraPairTest, InverseDepthInvertsTransfer) {
   const CameraPair pair = StereoCameras();
   for (const double inverse_depth : {-0.1, 0.0, 0.5, 2.0}) {
-    const Eigen::Vector2d xy_C1 = *pair.Transfer(kXy, inverse_depth);
-    EXPECT_NEAR(pair.InverseDepth(kXy, xy_C1), inverse_depth, 1e-9);
+    const Eigen::Vector2d xy_S = *pair.Transfer(kXy, inverse_depth);
+    EXPECT_NEAR(pair.InverseDepth(kXy, xy_S), inverse_depth, 1e-9);
     // An error across the epipolar line hardly matters.
-    const Eigen::Vector2d along = *pair.Transfer(kXy, inverse_depth + 1e-4) - xy_C1;
+    const Eigen::Vector2d along = *pair.Transfer(kXy, inverse_depth + 1e-4) - xy_S;
     const Eigen::Vector2d across = Eigen::Vector2d(-along.y(), along.x()).normalized();
-    EXPECT_NEAR(pair.InverseDepth(kXy, xy_C1 + 1e-3 * across), inverse_depth, 2e-3);
+    EXPECT_NEAR(pair.InverseDepth(kXy, xy_S + 1e-3 * across), inverse_depth, 2e-3);
   }
 }
 
@@ -84,25 +84,23 @@ TEST(CameraPairTest, WarpIsTheDerivativeOfTheMotionOfPixels) {
 TEST(CameraPairTest, SwappedInvertsMatches) {
   const CameraPair pair = StereoCameras();
   const double depth = 1.7;
-  const Eigen::Vector3d p_C1 = StereoMounting() * Eigen::Vector3d(depth * kXy.homogeneous());
-  const auto back = pair.Swapped().Transfer(p_C1.hnormalized(), 1 / p_C1.z());
+  const Eigen::Vector3d p_S = StereoExtrinsics() * Eigen::Vector3d(depth * kXy.homogeneous());
+  const auto back = pair.Swapped().Transfer(p_S.hnormalized(), 1 / p_S.z());
   ASSERT_TRUE(back);
   EXPECT_LT((*back - kXy).norm(), 1e-12);
 }
 
 TEST(CameraPairTest, IsBuiltFromAConfigurationWithTwoCameras) {
   SensorConfig sensor;
-  sensor.camera = StereoCameraParameters(230, 0);
-  EXPECT_FALSE(CameraPairOf(sensor));
-  sensor.T_B_C = {SO3Exp({0.1, 0.2, 0.3}), Eigen::Vector3d(1, 2, 3)};
-  sensor.second_camera.emplace();
-  sensor.second_camera->camera = StereoCameraParameters(228, 0);
-  sensor.second_camera->T_B_C = sensor.T_B_C * StereoMounting().Inverse();
-  const auto pair = CameraPairOf(sensor);
-  ASSERT_TRUE(pair);
-  EXPECT_LT((pair->T_C1_C().translation - StereoMounting().translation).norm(), 1e-12);
-  EXPECT_LT(pair->T_C1_C().rotation.angularDistance(StereoMounting().rotation), 1e-12);
-  EXPECT_EQ(pair->second().parameters().fx, 228);
+  sensor.cameras[0].parameters = StereoCameraParameters(230, 0);
+  sensor.cameras[0].T_B_C = {SO3Exp({0.1, 0.2, 0.3}), Eigen::Vector3d(1, 2, 3)};
+  sensor.cameras.emplace_back();
+  sensor.cameras[1].parameters = StereoCameraParameters(228, 0);
+  sensor.cameras[1].T_B_C = sensor.cameras[0].T_B_C * StereoExtrinsics().Inverse();
+  const CameraPair pair = CameraPairOf(sensor, {0, 1});
+  EXPECT_LT((pair.T_S_C().translation - StereoExtrinsics().translation).norm(), 1e-12);
+  EXPECT_LT(pair.T_S_C().rotation.angularDistance(StereoExtrinsics().rotation), 1e-12);
+  EXPECT_EQ(pair.second().parameters().fx, 228);
 }
 
 }  // namespace

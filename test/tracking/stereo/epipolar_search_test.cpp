@@ -22,7 +22,7 @@ class EpipolarSearchTest : public testing::Test {
   CameraPair pair_ = StereoCameras();
   StereoScene scene_;
   cv::Mat left_ = scene_.View(pair_.first());
-  cv::Mat right_ = scene_.View(pair_.second(), StereoMounting());
+  cv::Mat right_ = scene_.View(pair_.second(), StereoExtrinsics());
 };
 
 TEST_F(EpipolarSearchTest, FindsPointsOfAPlane) {
@@ -46,16 +46,16 @@ TEST_F(EpipolarSearchTest, FindsNothingOutsideTheRange) {
 }
 
 TEST_F(EpipolarSearchTest, FindsNothingInAnotherScene) {
-  right_ = StereoScene({0, 0, 0.5}, 7).View(pair_.second(), StereoMounting());
+  right_ = StereoScene({0, 0, 0.5}, 7).View(pair_.second(), StereoExtrinsics());
   EXPECT_FALSE(Search(Point(0, 0), {0, 3, 0}));
   EXPECT_FALSE(Search(Point(0.2, 0.1), {0, 3, 0}));
 }
 
-TEST_F(EpipolarSearchTest, BandAllowsForATurnedMounting) {
+TEST_F(EpipolarSearchTest, BandAllowsForATurnedExtrinsics) {
   const SearchedPoint point = Point(0.1, 0.1);
   const auto truth = pair_.Project(point.xy, scene_.InverseDepth(point.xy));
-  const Rigid3d turned = {SO3Exp({0.015, 0, 0}) * StereoMounting().rotation,
-                          StereoMounting().translation};  // 3.4 px
+  const Rigid3d turned = {SO3Exp({0.015, 0, 0}) * StereoExtrinsics().rotation,
+                          StereoExtrinsics().translation};  // 3.4 px
   const auto search = [&](double band_px) {
     return SearchAlongCurve(pair_.With(turned), left_, point, right_, {0, 3, band_px});
   };
@@ -67,8 +67,8 @@ TEST_F(EpipolarSearchTest, BandAllowsForATurnedMounting) {
 TEST_F(EpipolarSearchTest, SmallOffsetsNeedNoBand) {
   const SearchedPoint point = Point(0.1, 0.1);
   const auto truth = pair_.Project(point.xy, scene_.InverseDepth(point.xy));
-  const Rigid3d turned = {SO3Exp({0.002, 0, 0}) * StereoMounting().rotation,
-                          StereoMounting().translation};  // 0.46 px
+  const Rigid3d turned = {SO3Exp({0.002, 0, 0}) * StereoExtrinsics().rotation,
+                          StereoExtrinsics().translation};  // 0.46 px
   const auto found = SearchAlongCurve(pair_.With(turned), left_, point, right_, {0, 3, 0.46});
   ASSERT_TRUE(found);
   EXPECT_LT((found->pixel - *truth).norm(), 0.3);

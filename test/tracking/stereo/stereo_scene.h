@@ -27,13 +27,13 @@ inline CameraParameters StereoCameraParameters(double focal, double k1) {
 }
 
 // The second camera is 0.11 m to the right of the first one, and a little turned.
-inline Rigid3d StereoMounting() {
+inline Rigid3d StereoExtrinsics() {
   return {SO3Exp({0.01, -0.015, 0.02}), Eigen::Vector3d(-0.11, 0.002, 0.001)};
 }
 
-inline CameraPair StereoCameras(const Rigid3d& T_C1_C = StereoMounting()) {
+inline CameraPair StereoCameras(const Rigid3d& T_S_C = StereoExtrinsics()) {
   return {CameraModel::Create(StereoCameraParameters(230, -0.25)),
-          CameraModel::Create(StereoCameraParameters(228, -0.22)), T_C1_C};
+          CameraModel::Create(StereoCameraParameters(228, -0.22)), T_S_C};
 }
 
 class StereoScene {

@@ -54,7 +54,7 @@ class IntrinsicsFactorTest : public ::testing::Test {
   }
 
   const std::unique_ptr<const CameraModel> camera_ =
-      CameraModel::Create(simulator::DefaultSensors().camera);
+      CameraModel::Create(simulator::DefaultSensors().cameras[0].parameters);
   const TimedBearing bearing_{{0.1, -0.2}, {1, 2}, 0.01};
   const LineSegmentView view_{{0.1, -0.2}, {-0.2, 0.15}};
   const Block point_ = Vector3d(0.12, -0.23, 0.5);

@@ -46,7 +46,8 @@ TEST(ExtrinsicCalibratorTest, FindsTheRotationInFlight) {
       const SimulatedFlight flight = SimulateFlight(options);
       const Calibration calibration = Calibrate(flight);
       ASSERT_TRUE(calibration.R_B_C) << "seed " << seed << ": " << calibration.reason;
-      EXPECT_LT(calibration.R_B_C->angularDistance(flight.sensor.T_B_C.rotation), 2.5 * kDegree)
+      EXPECT_LT(calibration.R_B_C->angularDistance(flight.sensor.cameras[0].T_B_C.rotation),
+                2.5 * kDegree)
           << "seed " << seed;
     }
   }
@@ -64,7 +65,8 @@ TEST(ExtrinsicCalibratorTest, PointsInOnePlaceDoNoHarm) {
   }
   const Calibration calibration = Calibrate(flight);
   ASSERT_TRUE(calibration.R_B_C) << calibration.reason;
-  EXPECT_LT(calibration.R_B_C->angularDistance(flight.sensor.T_B_C.rotation), 2.5 * kDegree);
+  EXPECT_LT(calibration.R_B_C->angularDistance(flight.sensor.cameras[0].T_B_C.rotation),
+            2.5 * kDegree);
 }
 
 TEST(ExtrinsicCalibratorTest, RejectsAFlightThatDoesNotTurn) {
@@ -103,7 +105,7 @@ SimulatedFlight FlightToCalibrateIn() {
 Config WithoutCameraPose(const SimulatedFlight& flight) {
   Config config;
   config.sensor = flight.sensor;
-  config.sensor.T_B_C = Rigid3d();
+  config.sensor.cameras[0].T_B_C = Rigid3d();
   config.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kCalibrateRotation;
   config.estimator.point_noise = simulator::FeatureSimulationOptions().point_noise_px;
   return config;
@@ -127,8 +129,8 @@ TEST(ExtrinsicCalibratorTest, EstimatorStartsWithoutAnyCameraPose) {
   }
   ASSERT_GT(poses, 100);
   EXPECT_LT(AbsoluteError(estimate.leftCols(poses), truth.leftCols(poses)), 0.03);
-  EXPECT_LT(T_B_C.rotation.angularDistance(flight.sensor.T_B_C.rotation), 0.2 * kDegree);
-  EXPECT_LT((T_B_C.translation - flight.sensor.T_B_C.translation).norm(), 0.04);
+  EXPECT_LT(T_B_C.rotation.angularDistance(flight.sensor.cameras[0].T_B_C.rotation), 0.2 * kDegree);
+  EXPECT_LT((T_B_C.translation - flight.sensor.cameras[0].T_B_C.translation).norm(), 0.04);
 }
 
 TEST(ExtrinsicCalibratorTest, TheRotationSurvivesALoss) {
@@ -146,8 +148,9 @@ TEST(ExtrinsicCalibratorTest, TheRotationSurvivesALoss) {
     EXPECT_EQ(output.reason.find("calibrating"), std::string::npos) << output.reason;
   }
   ASSERT_TRUE(output.has_pose) << output.reason;
-  EXPECT_LT(output.calibration.T_B_C.rotation.angularDistance(flight.sensor.T_B_C.rotation),
-            2.5 * kDegree);
+  EXPECT_LT(
+      output.calibration.T_B_C.rotation.angularDistance(flight.sensor.cameras[0].T_B_C.rotation),
+      2.5 * kDegree);
   estimator.Reset();
   output = estimator.Process(flight.frames[i]);
   output = estimator.Process(flight.frames[i + 1]);

@@ -195,7 +195,7 @@ TEST(InitializerTest, GapInTheImuStartsOver) {
 }
 
 SimulatedFlight ForgetTheCameraPose(SimulatedFlight flight) {
-  flight.sensor.T_B_C = Rigid3d();
+  flight.sensor.cameras[0].T_B_C = Rigid3d();
   flight.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kCalibrateRotation;
   return flight;
 }
@@ -212,7 +212,7 @@ TEST(InitializerTest, CalibratesTheRotationOfTheCameraFirst) {
       const auto start = Feed(flight, &initializer);
       ASSERT_TRUE(start) << "seed " << seed << ": " << initializer.reason();
       const Rigid3d& T_B_C = start->result.T_B_C;
-      EXPECT_LT(T_B_C.rotation.angularDistance(truth.sensor.T_B_C.rotation), 0.04)
+      EXPECT_LT(T_B_C.rotation.angularDistance(truth.sensor.cameras[0].T_B_C.rotation), 0.04)
           << "seed " << seed;
       EXPECT_EQ(T_B_C.translation, Eigen::Vector3d::Zero());
       EXPECT_LT(std::abs(ScaleError(*start, flight)), 0.25) << "seed " << seed;

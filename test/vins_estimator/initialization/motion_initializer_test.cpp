@@ -21,7 +21,7 @@ constexpr int kFrames = 11;
 // of a wall of points.
 std::vector<FrameMeasurement> Glide(const SensorConfig& sensor, const Vector3d& velocity) {
   simulator::Random random(7);
-  const Eigen::Quaterniond R_W_B = simulator::ForwardLookingBody(sensor.T_B_C);
+  const Eigen::Quaterniond R_W_B = simulator::ForwardLookingBody(sensor.cameras[0].T_B_C);
   constexpr int kLandmarks = 100;
   std::vector<Vector3d> landmarks;
   landmarks.reserve(kLandmarks);
@@ -32,7 +32,8 @@ std::vector<FrameMeasurement> Glide(const SensorConfig& sensor, const Vector3d& 
   for (int i = 0; i < kFrames; ++i) {
     FrameMeasurement& frame = frames[i];
     frame.t_ns = i * 200'000'000;
-    const Rigid3d T_W_C = Rigid3d(R_W_B, velocity * ToSeconds(frame.t_ns)) * sensor.T_B_C;
+    const Rigid3d T_W_C =
+        Rigid3d(R_W_B, velocity * ToSeconds(frame.t_ns)) * sensor.cameras[0].T_B_C;
     for (size_t id = 0; id < landmarks.size(); ++id) {
       PointObservation point;
       point.id = static_cast<int64_t>(id);

@@ -40,7 +40,8 @@ TEST(RotationCheck, NamesAWrongMounting) {
   for (const Eigen::Vector3d& turn : {Eigen::Vector3d(0, 0, M_PI), Eigen::Vector3d(0, 0, M_PI / 2),
                                       Eigen::Vector3d(M_PI / 2, 0, 0)}) {
     SimulatedFlight flight = Fly(1);
-    flight.sensor.T_B_C.rotation = flight.sensor.T_B_C.rotation * SO3Exp(turn);
+    flight.sensor.cameras[0].T_B_C.rotation =
+        flight.sensor.cameras[0].T_B_C.rotation * SO3Exp(turn);
     const std::string finding = Check(flight);
     EXPECT_THAT(finding, StartsWith("extrinsicRotation is wrong by "));
     const double degrees = std::stod(finding.substr(30));

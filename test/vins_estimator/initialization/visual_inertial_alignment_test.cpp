@@ -54,16 +54,16 @@ class AlignmentTest : public ::testing::Test {
     std::vector<AlignmentView> views;
     std::vector<const Preintegration*> preintegrations;
     for (const FrameState& state : truth_) {
-      const Vector3d p_W_C = state.T_W_B() * sensor_.T_B_C.translation;
+      const Vector3d p_W_C = state.T_W_B() * sensor_.cameras[0].T_B_C.translation;
       views.push_back({kR_G_W * state.rotation(), kR_G_W * p_W_C / scale});
     }
     for (Preintegration& imu : preintegrations_) {
       imu.Repropagate({Vector3d::Zero(), gyro_bias_});
       preintegrations.push_back(&imu);
     }
-    return AlignVisualInertial(views, preintegrations,
-                               {sensor_.T_B_C, gravity_norm, sensor_.accel_bias_deviation},
-                               &reason_);
+    return AlignVisualInertial(
+        views, preintegrations,
+        {sensor_.cameras[0].T_B_C, gravity_norm, sensor_.accel_bias_deviation}, &reason_);
   }
 
   static constexpr size_t kCount = 10, kStep = 5;

@@ -28,8 +28,9 @@ struct Problem {
     const simulator::FeatureSimulationOptions simulation =
         testing::FlightOptions(simulator::Motion::kFast, seed);
     const testing::SimulatedFlight flight = testing::SimulateFlight(simulation, 3);
-    const double focal_length = CameraModel::Create(flight.sensor.camera)->FocalLength();
-    options = {flight.sensor.T_B_C, flight.sensor.gravity_norm,
+    const double focal_length =
+        CameraModel::Create(flight.sensor.cameras[0].parameters)->FocalLength();
+    options = {flight.sensor.cameras[0].T_B_C, flight.sensor.gravity_norm,
                simulation.point_noise_px / focal_length, flight.sensor.accel_bias_deviation};
     std::vector<const PointFrame*> views;
     std::vector<ImuSample> imu;

@@ -13,7 +13,7 @@ using ::testing::IsEmpty;
 class InputCheckTest : public ::testing::Test {
  protected:
   InputCheckTest() {
-    sensor_.image_topic = "/cam";
+    sensor_.cameras[0].image_topic = "/cam";
     sensor_.imu_topic = "/imu";
   }
 

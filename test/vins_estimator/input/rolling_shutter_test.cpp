@@ -86,7 +86,7 @@ class RollingCamera {
 
  private:
   std::unique_ptr<const CameraModel> camera_ =
-      CameraModel::Create(simulator::DefaultSensors().camera);
+      CameraModel::Create(simulator::DefaultSensors().cameras[0].parameters);
   Eigen::Quaterniond R_B_C_ = SO3Exp({1, 2, -0.5});
   Vector3d angular_acceleration_C_;
   std::vector<Vector3d> points_C0_;

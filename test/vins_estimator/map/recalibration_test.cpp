@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 class RecalibrationTest : public ::testing::Test {
  protected:
   static CameraParameters Other() {
-    CameraParameters camera = simulator::DefaultSensors().camera;
+    CameraParameters camera = simulator::DefaultSensors().cameras[0].parameters;
     camera.fx *= 1.02;
     camera.cy += 7;
     camera.distortion[0] += 0.01;
@@ -27,13 +27,13 @@ class RecalibrationTest : public ::testing::Test {
   }
 
   const std::unique_ptr<const CameraModel> from_ =
-      CameraModel::Create(simulator::DefaultSensors().camera);
+      CameraModel::Create(simulator::DefaultSensors().cameras[0].parameters);
   const std::unique_ptr<const CameraModel> to_ = CameraModel::Create(Other());
-  const Recalibration recalibration_{simulator::DefaultSensors().camera, Other()};
+  const Recalibration recalibration_{simulator::DefaultSensors().cameras[0].parameters, Other()};
 };
 
 TEST_F(RecalibrationTest, ReturnsTheLargestMotion) {
-  CameraParameters camera = simulator::DefaultSensors().camera;
+  CameraParameters camera = simulator::DefaultSensors().cameras[0].parameters;
   EXPECT_EQ(Recalibration(camera, camera).LargestMove(), 0);
 
   camera.distortion.setZero();
@@ -106,10 +106,10 @@ TEST_F(RecalibrationTest, FollowsTheIntrinsicsOfTheSecondCamera) {
   LineLandmark& line = map.lines.landmarks()[2];
   line.views = {{7, {{0.1, 0.2}, {-0.3, 0.4}}, RightSegment{{0.1, 0.2}, {-0.3, 0.4}, {}}}};
   SensorConfig sensor = simulator::DefaultStereoSensors();
-  sensor.second_camera->camera = sensor.camera;
+  sensor.cameras[1].parameters = sensor.cameras[0].parameters;
   SlidingWindow& window = map.window;
   window.intrinsics = window.ray_intrinsics = window.right_ray_intrinsics =
-      sensor.camera.intrinsics();
+      sensor.cameras[0].parameters.intrinsics();
   window.right_intrinsics = Other().intrinsics();
   FollowIntrinsics(sensor, /*max_error=*/1, &map);
   EXPECT_EQ(*point.views[0].right, Vector2d(0.1, 0.2));

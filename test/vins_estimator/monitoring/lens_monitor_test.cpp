@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFrames = 40, kPoints = 60;
 
-CameraParameters Camera() { return simulator::DefaultSensors().camera; }
+CameraParameters Camera() { return simulator::DefaultSensors().cameras[0].parameters; }
 
 // Error of an observation by its position relative to the principal point.
 using Error = std::function<Eigen::Vector2d(const Eigen::Vector2d& from_center)>;

@@ -44,21 +44,21 @@ TEST(CalibratedConfig, LoadsUnchanged) {
   SaveCalibratedConfig(SomeCalibration(), config, folder.File("calibrated.yaml"));
   const Config read = LoadConfig(folder.File("calibrated.yaml"));
   EXPECT_EQ(read.estimator.window_size, 12);
-  EXPECT_EQ(read.sensor.camera.intrinsics(), SomeCalibration().camera.intrinsics());
-  EXPECT_MATRIX_NEAR(read.sensor.T_B_C.R(), SomeCalibration().T_B_C.R(), 1e-10);
-  EXPECT_EQ(read.sensor.T_B_C.translation, SomeCalibration().T_B_C.translation);
+  EXPECT_EQ(read.sensor.cameras[0].parameters.intrinsics(), SomeCalibration().camera.intrinsics());
+  EXPECT_MATRIX_NEAR(read.sensor.cameras[0].T_B_C.R(), SomeCalibration().T_B_C.R(), 1e-10);
+  EXPECT_EQ(read.sensor.cameras[0].T_B_C.translation, SomeCalibration().T_B_C.translation);
   EXPECT_EQ(read.sensor.td, 0.004);
   EXPECT_EQ(read.sensor.rolling_shutter_tr, 0.03);
 }
 
 TEST(CalibratedConfig, HasTheSecondCamera) {
   Config config;
-  config.sensor.second_camera.emplace();
+  config.sensor.cameras.emplace_back();
   Calibration calibration = SomeCalibration();
   calibration.right_camera = calibration.camera;
   calibration.T_C_C1 = Rigid3d(Eigen::Quaterniond::Identity(), {0.1, 0, 0});
-  const SecondCamera second = *WithCalibration(calibration, config).sensor.second_camera;
-  EXPECT_EQ(second.camera.intrinsics(), calibration.camera.intrinsics());
+  const CameraSensor second = WithCalibration(calibration, config).sensor.cameras[1];
+  EXPECT_EQ(second.parameters.intrinsics(), calibration.camera.intrinsics());
   EXPECT_MATRIX_NEAR((calibration.T_B_C.Inverse() * second.T_B_C).translation,
                      Eigen::Vector3d(0.1, 0, 0), 1e-12);
 }

@@ -13,10 +13,10 @@ namespace {
 TEST(ConfigJson, HasTheNamesGroupsAndTypesOfTheFile) {
   Config config;
   config.file = "mine.yaml";
-  config.sensor.camera.model = CameraParameters::Model::kMei;
-  config.sensor.camera.fx = 500.5;
-  config.sensor.camera.xi = 0.9;
-  config.sensor.T_B_C.translation = {1, 2, 3};
+  config.sensor.cameras[0].parameters.model = CameraParameters::Model::kMei;
+  config.sensor.cameras[0].parameters.fx = 500.5;
+  config.sensor.cameras[0].parameters.xi = 0.9;
+  config.sensor.cameras[0].T_B_C.translation = {1, 2, 3};
   config.estimator.line_anchors = 7;
   config.points.corner_detector = CornerDetectorType::kHarris;
   const Json json = ToJson(config);

@@ -21,7 +21,7 @@ using testing::SimulatedWindow;
 
 ProblemOptions Options() {
   Config config;
-  config.sensor.camera = simulator::DefaultSensors().camera;
+  config.sensor.cameras[0].parameters = simulator::DefaultSensors().cameras[0].parameters;
   config.estimator.point_noise = simulator::FeatureSimulationOptions().point_noise_px;
   config.estimator.line_noise = simulator::FeatureSimulationOptions().line_noise_px;
   return {config, testing::kSimulatedFocalLength};

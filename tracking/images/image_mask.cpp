@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tracking/image_mask.h"
+#include "tracking/images/image_mask.h"
 
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>

@@ -2,38 +2,42 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <deque>
 #include <optional>
 #include <utility>
 
+#include "common/streams/stamp_order.h"
+
 namespace plm_vins {
 
-// Images of a further sensor that wait for the camera image with the same timestamp. `Sample` has
-// t_ns. Synchronous; the result depends only on the order of the calls.
+// Images of a further camera or of depth that wait for the image of camera 0 with the same
+// timestamp. `Sample` has t_ns. Synchronous; the result depends only on the order of the calls.
 template <typename Sample>
-class CompanionQueue {
+class PairingQueue {
  public:
   static constexpr int64_t kTolerance_ns = 2'000'000;  // closer timestamps are equal
 
-  // Must be called in order of arrival. A timestamp that does not increase begins a new recording.
+  // Must be called in order of arrival. Drops a sample that goes back in time, unless enough
+  // samples follow it there: then a new recording begins.
   void Add(Sample sample) {
-    if (last_ns_ && sample.t_ns <= *last_ns_) {
+    const std::optional<int64_t> last_ns = order_.newest_ns();
+    const StampVerdict verdict = order_.Add(sample.t_ns);
+    if (!StampOrder::IsAccepted(verdict)) return;
+    if (verdict == StampVerdict::kRestarts) {
       samples_.clear();
       interval_ns_ = 0;
-    } else if (last_ns_) {
-      interval_ns_ = sample.t_ns - *last_ns_;
+    } else if (last_ns) {
+      interval_ns_ = sample.t_ns - *last_ns;
     }
-    last_ns_ = sample.t_ns;
     samples_.push_back(std::move(sample));
-    while (samples_.front().t_ns < *last_ns_ - kMaxAge_ns) samples_.pop_front();
+    while (samples_.front().t_ns < *order_.newest_ns() - kMaxAge_ns) samples_.pop_front();
   }
 
   // Returns whether the sample for an image with this timestamp is due but has not arrived. A
   // sensor that has not sent anything yet, or has stopped, is not waited for.
   bool IsAwaited(int64_t t_ns) const {
-    if (!last_ns_) return false;
-    const int64_t ahead_ns = t_ns - *last_ns_;
+    if (!last_ns()) return false;
+    const int64_t ahead_ns = t_ns - *last_ns();
     return ahead_ns > kTolerance_ns && ahead_ns < kSilence_ns && 4 * ahead_ns >= 3 * interval_ns_;
   }
 
@@ -46,15 +50,15 @@ class CompanionQueue {
     return taken;
   }
 
-  // Timestamp of the last sample that was added.
-  const std::optional<int64_t>& last_ns() const { return last_ns_; }
+  // Timestamp of the newest sample.
+  std::optional<int64_t> last_ns() const { return order_.newest_ns(); }
 
  private:
   static constexpr int64_t kMaxAge_ns = 1'000'000'000;  // exceeds the time that any image waits
   static constexpr int64_t kSilence_ns = 500'000'000;
 
   std::deque<Sample> samples_;
-  std::optional<int64_t> last_ns_;
+  StampOrder order_{kImageJumps};
   int64_t interval_ns_ = 0;  // interval between the last two samples
 };
 

@@ -12,6 +12,12 @@
 
 namespace plm_vins {
 
+// A corner in the image of the second camera of a pair, at the time of the first one's image.
+struct SecondView {
+  Eigen::Vector2d xy = Eigen::Vector2d::Zero();  // normalized, undistorted
+  Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();
+};
+
 // A tracked corner in the newest image.
 struct PointTrack {
   int64_t id = -1;
@@ -23,8 +29,7 @@ struct PointTrack {
   Eigen::Matrix2d patch_linear = Eigen::Matrix2d::Identity();  // `linear` of the patch's pose
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();                // normalized, undistorted
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();          // d(xy)/dt [1/s]; zero when new
-  std::optional<Eigen::Vector2d> right;                        // see PointObservation
-  RightSearch right_search = RightSearch::kNotDue;
+  std::optional<SecondView> second;                            // if matched in the newest image
   std::optional<double> inverse_depth;  // from the last match in the second camera [1/m]
   std::optional<double> depth;          // measured by the depth sensor [m]
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "feature_tracker/ray_mask.h"
+#include "feature_tracker/detection/ray_mask.h"
 
 #include <algorithm>
 #include <cstdint>

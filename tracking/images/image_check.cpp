@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tracking/image_check.h"
+#include "tracking/images/image_check.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tracking/stereo/mounting_estimate.h"
+#include "tracking/stereo/extrinsics_estimate.h"
 
 #include <gtest/gtest.h>
 
@@ -25,25 +25,25 @@ std::vector<StereoMatch> Matches(const Rigid3d& truth, double delay, int count =
     match.xy = {place(random), place(random)};
     match.velocity = {speed(random), speed(random)};
     const Eigen::Vector2d later = match.xy + delay * match.velocity;
-    const Eigen::Vector3d p_C1 =
+    const Eigen::Vector3d p_S =
         truth.rotation * later.homogeneous() + inverse_depth(random) * truth.translation;
-    match.xy_C1 = p_C1.hnormalized() + Eigen::Vector2d(noise(random), noise(random));
+    match.xy_S = p_S.hnormalized() + Eigen::Vector2d(noise(random), noise(random));
     matches.push_back(match);
   }
   return matches;
 }
 
 Rigid3d Turned(const Eigen::Vector3d& angles) {
-  return {SO3Exp(angles) * StereoMounting().rotation, StereoMounting().translation};
+  return {SO3Exp(angles) * StereoExtrinsics().rotation, StereoExtrinsics().translation};
 }
 
-void Feed(const std::vector<StereoMatch>& matches, MountingEstimate* estimate) {
+void Feed(const std::vector<StereoMatch>& matches, ExtrinsicsEstimate* estimate) {
   for (int i = 0; i < 10; ++i) estimate->Update(matches);
 }
 
-TEST(MountingEstimateTest, LearnsTheRotationOfTheCamera) {
+TEST(ExtrinsicsEstimateTest, LearnsTheRotationOfTheCamera) {
   const Eigen::Vector3d angles = Eigen::Vector3d(0.3, -0.2, 0.3) * kDegree;
-  MountingEstimate estimate(StereoMounting(), kFocal);
+  ExtrinsicsEstimate estimate(StereoExtrinsics(), kFocal);
   Feed(Matches(Turned(angles), 0), &estimate);
   // About the baseline's own direction and about the axis; about the other one, only the shape of
   // the epipolar curves tells.
@@ -54,26 +54,26 @@ TEST(MountingEstimateTest, LearnsTheRotationOfTheCamera) {
     EXPECT_LT(std::abs(estimate.Error(match)), 1);
     EXPECT_TRUE(estimate.Accepts(match));
   }
-  EXPECT_NEAR(estimate.T_C1_C().translation.norm(), StereoMounting().translation.norm(), 1e-12);
+  EXPECT_NEAR(estimate.T_S_C().translation.norm(), StereoExtrinsics().translation.norm(), 1e-12);
 }
 
-TEST(MountingEstimateTest, LearnsTheDelayOfTheSecondCamera) {
+TEST(ExtrinsicsEstimateTest, LearnsTheDelayOfTheSecondCamera) {
   for (const double delay : {0.005, -0.01}) {
-    MountingEstimate estimate(StereoMounting(), kFocal);
-    const std::vector<StereoMatch> matches = Matches(StereoMounting(), delay);
+    ExtrinsicsEstimate estimate(StereoExtrinsics(), kFocal);
+    const std::vector<StereoMatch> matches = Matches(StereoExtrinsics(), delay);
     Feed(matches, &estimate);
     EXPECT_NEAR(estimate.delay(), delay, 1e-3);
-    const std::vector<StereoMatch> in_time = Matches(StereoMounting(), 0);
+    const std::vector<StereoMatch> in_time = Matches(StereoExtrinsics(), 0);
     for (size_t i = 0; i < matches.size(); ++i) {
-      EXPECT_LT((estimate.WithoutDelay(matches[i]) - in_time[i].xy_C1).norm() * kFocal, 1);
+      EXPECT_LT((estimate.WithoutDelay(matches[i]) - in_time[i].xy_S).norm() * kFocal, 1);
     }
   }
 }
 
-TEST(MountingEstimateTest, IsRobustAgainstWrongMatches) {
-  std::vector<StereoMatch> matches = Matches(StereoMounting(), 0);
-  for (size_t i = 0; i < matches.size(); i += 3) matches[i].xy_C1.y() += 0.004 * (1.0 + i % 7);
-  MountingEstimate estimate(StereoMounting(), kFocal);
+TEST(ExtrinsicsEstimateTest, IsRobustAgainstWrongMatches) {
+  std::vector<StereoMatch> matches = Matches(StereoExtrinsics(), 0);
+  for (size_t i = 0; i < matches.size(); i += 3) matches[i].xy_S.y() += 0.004 * (1.0 + i % 7);
+  ExtrinsicsEstimate estimate(StereoExtrinsics(), kFocal);
   Feed(matches, &estimate);
   EXPECT_LT(estimate.rotation().norm(), 0.1 * kDegree);
   int accepted = 0;
@@ -81,17 +81,17 @@ TEST(MountingEstimateTest, IsRobustAgainstWrongMatches) {
   EXPECT_LE(accepted, 6);  // of 34; some are wrong by less than two pixels
 }
 
-TEST(MountingEstimateTest, AcceptsThePriorUncertaintyAtFirst) {
-  const MountingEstimate estimate(StereoMounting(), kFocal);
+TEST(ExtrinsicsEstimateTest, AcceptsThePriorUncertaintyAtFirst) {
+  const ExtrinsicsEstimate estimate(StereoExtrinsics(), kFocal);
   EXPECT_TRUE(estimate.Accepts(Matches(Turned({0.4 * kDegree, 0, 0}), 0, 1).front()));
   EXPECT_FALSE(estimate.Accepts(Matches(Turned({3 * kDegree, 0, 0}), 0, 1).front()));
 }
 
 // Rotation about the baseline moves epipolar curves by the full angle; that about the vertical,
 // which takes long to be known, moves points along them.
-TEST(MountingEstimateTest, DeviationIsAcrossTheEpipolarCurve) {
+TEST(ExtrinsicsEstimateTest, DeviationIsAcrossTheEpipolarCurve) {
   const Rigid3d sideways(Eigen::Quaterniond::Identity(), Eigen::Vector3d(-0.1, 0, 0));
-  MountingEstimate estimate(sideways, kFocal);
+  ExtrinsicsEstimate estimate(sideways, kFocal);
   const StereoMatch far{{0, 0}, {0, 0}, {0, 0}};
   EXPECT_NEAR(estimate.Deviation(far), kFocal * 0.4 * kDegree, 1e-6);
   Feed(Matches(sideways, 0), &estimate);
@@ -100,14 +100,14 @@ TEST(MountingEstimateTest, DeviationIsAcrossTheEpipolarCurve) {
   }
 }
 
-TEST(MountingEstimateTest, ErrorIsTheDistanceFromTheEpipolarLine) {
-  const MountingEstimate estimate(StereoMounting(), kFocal);
-  StereoMatch match = Matches(StereoMounting(), 0, 1, 0).front();
+TEST(ExtrinsicsEstimateTest, ErrorIsTheDistanceFromTheEpipolarLine) {
+  const ExtrinsicsEstimate estimate(StereoExtrinsics(), kFocal);
+  StereoMatch match = Matches(StereoExtrinsics(), 0, 1, 0).front();
   EXPECT_NEAR(estimate.StatedError(match), 0, 1e-9);
   const Eigen::Vector2d along =
-      (StereoMounting().translation.head<2>() - match.xy_C1 * StereoMounting().translation.z())
+      (StereoExtrinsics().translation.head<2>() - match.xy_S * StereoExtrinsics().translation.z())
           .normalized();
-  match.xy_C1 += 2 / kFocal * Eigen::Vector2d(-along.y(), along.x());
+  match.xy_S += 2 / kFocal * Eigen::Vector2d(-along.y(), along.x());
   EXPECT_NEAR(std::abs(estimate.StatedError(match)), 2, 1e-6);
 }
 

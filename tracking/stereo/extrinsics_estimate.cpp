@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tracking/stereo/mounting_estimate.h"
+#include "tracking/stereo/extrinsics_estimate.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace plm_vins {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
-// Standard deviations of the errors of a stated mounting.
+// Standard deviations of the errors of stated extrinsics.
 constexpr double kRotationPrior = 0.4 * kDegree;  // [rad]
 constexpr double kBaselinePrior = 0.4 * kDegree;  // [rad]
 constexpr double kDelayPrior = 0.01;              // [s]
@@ -24,10 +24,10 @@ constexpr double kScales_px[] = {4, 2, 1, 0.5};  // scales of the robust weights
 
 }  // namespace
 
-MountingEstimate::MountingEstimate(const Rigid3d& stated_T_C1_C, double focal_length)
-    : stated_T_C1_C_(stated_T_C1_C),
+ExtrinsicsEstimate::ExtrinsicsEstimate(const Rigid3d& stated_T_S_C, double focal_length)
+    : stated_T_S_C_(stated_T_S_C),
       focal_length_(focal_length),
-      baseline_direction_(stated_T_C1_C.translation.normalized()),
+      baseline_direction_(stated_T_S_C.translation.normalized()),
       baseline_tangent_(TangentBasis(baseline_direction_)) {
   Vector deviations;
   deviations << kRotationPrior, kRotationPrior, kRotationPrior, kBaselinePrior, kBaselinePrior,
@@ -36,16 +36,16 @@ MountingEstimate::MountingEstimate(const Rigid3d& stated_T_C1_C, double focal_le
   prior_ = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
-Eigen::Vector2d MountingEstimate::VelocityInC1(const StereoMatch& match) const {
-  const Eigen::Matrix3d R_C1_C = stated_T_C1_C_.R();
-  const Eigen::Vector3d ray = R_C1_C * match.xy.homogeneous();
-  const Eigen::Vector3d motion = R_C1_C.leftCols<2>() * match.velocity;
+Eigen::Vector2d ExtrinsicsEstimate::VelocityInSecond(const StereoMatch& match) const {
+  const Eigen::Matrix3d R_S_C = stated_T_S_C_.R();
+  const Eigen::Vector3d ray = R_S_C * match.xy.homogeneous();
+  const Eigen::Vector3d motion = R_S_C.leftCols<2>() * match.velocity;
   return (motion.head<2>() - ray.hnormalized() * motion.z()) / ray.z();
 }
 
-MountingEstimate::Linear MountingEstimate::Linearize(const StereoMatch& match) const {
-  const Eigen::Vector3d a = stated_T_C1_C_.rotation * match.xy.homogeneous();
-  const Eigen::Vector3d b = match.xy_C1.homogeneous();
+ExtrinsicsEstimate::Linear ExtrinsicsEstimate::Linearize(const StereoMatch& match) const {
+  const Eigen::Vector3d a = stated_T_S_C_.rotation * match.xy.homogeneous();
+  const Eigen::Vector3d b = match.xy_S.homogeneous();
   const Eigen::Vector3d line = baseline_direction_.cross(a);
   const double weight = focal_length_ / std::max(line.head<2>().norm(), 1e-9);
   Linear linear;
@@ -53,11 +53,11 @@ MountingEstimate::Linear MountingEstimate::Linearize(const StereoMatch& match) c
   linear.gradient.head<5>() =
       EpipolarGradient(weight, a, b, baseline_direction_, baseline_tangent_);
   // A match that is observed later lies further along its motion.
-  linear.gradient[kDelay] = -weight * line.head<2>().dot(VelocityInC1(match));
+  linear.gradient[kDelay] = -weight * line.head<2>().dot(VelocityInSecond(match));
   return linear;
 }
 
-void MountingEstimate::Update(const std::vector<StereoMatch>& matches) {
+void ExtrinsicsEstimate::Update(const std::vector<StereoMatch>& matches) {
   std::vector<Linear> linear;
   linear.reserve(matches.size());
   for (const StereoMatch& match : matches) linear.push_back(Linearize(match));
@@ -81,33 +81,33 @@ void MountingEstimate::Update(const std::vector<StereoMatch>& matches) {
   gradient_ = gradient;
 }
 
-bool MountingEstimate::Accepts(const StereoMatch& match) const {
+bool ExtrinsicsEstimate::Accepts(const StereoMatch& match) const {
   const Linear linear = Linearize(match);
   const double variance = kMatchDeviation_px * kMatchDeviation_px + Variance(linear);
   return std::abs(linear.error + linear.gradient.dot(state_)) < kGate * std::sqrt(variance);
 }
 
-double MountingEstimate::StatedError(const StereoMatch& match) const {
+double ExtrinsicsEstimate::StatedError(const StereoMatch& match) const {
   return Linearize(match).error;
 }
 
-double MountingEstimate::Error(const StereoMatch& match) const {
+double ExtrinsicsEstimate::Error(const StereoMatch& match) const {
   const Linear linear = Linearize(match);
   return linear.error + linear.gradient.dot(state_);
 }
 
-Eigen::Vector2d MountingEstimate::WithoutDelay(const StereoMatch& match) const {
-  return match.xy_C1 - delay() * VelocityInC1(match);
+Eigen::Vector2d ExtrinsicsEstimate::WithoutDelay(const StereoMatch& match) const {
+  return match.xy_S - delay() * VelocityInSecond(match);
 }
 
-Rigid3d MountingEstimate::T_C1_C() const {
+Rigid3d ExtrinsicsEstimate::T_S_C() const {
   const Eigen::Vector3d direction =
       (baseline_direction_ + baseline_tangent_ * state_.segment<2>(3)).normalized();
-  return {(SO3Exp(rotation()) * stated_T_C1_C_.rotation).normalized(),
-          stated_T_C1_C_.translation.norm() * direction};
+  return {(SO3Exp(rotation()) * stated_T_S_C_.rotation).normalized(),
+          stated_T_S_C_.translation.norm() * direction};
 }
 
-double MountingEstimate::Deviation(const StereoMatch& match) const {
+double ExtrinsicsEstimate::Deviation(const StereoMatch& match) const {
   return std::sqrt(Variance(Linearize(match)));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tracking/image_sampling.h"
+#include "tracking/images/image_sampling.h"
 
 #include <gtest/gtest.h>
 

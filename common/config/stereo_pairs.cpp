@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/config/stereo_pairs.h"
+
+#include <algorithm>
+#include <regex>
+
+#include "common/camera/camera_model.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kMinShared = 0.5;  // share of the second image
+
+// Returns the share of the image of camera B whose points, if they are distant, camera A shows.
+double SharedView(const CameraModel& a, const CameraModel& b, const Eigen::Quaterniond& R_A_B) {
+  constexpr int kColumns = 16, kRows = 12;
+  const Eigen::Vector2d size(b.parameters().width, b.parameters().height);
+  int shared = 0;
+  for (int i = 0; i < kColumns * kRows; ++i) {
+    const Eigen::Vector2d share((i % kColumns + 0.5) / kColumns, (i / kColumns + 0.5) / kRows);
+    const auto xy = b.Unproject(share.cwiseProduct(size));
+    const auto pixel = xy ? a.Project(R_A_B * xy->homogeneous()) : std::nullopt;
+    shared += pixel && a.IsInImage(*pixel);
+  }
+  return static_cast<double>(shared) / (kColumns * kRows);
+}
+
+bool HasPair(int camera, const std::vector<StereoPair>& pairs) {
+  return std::any_of(pairs.begin(), pairs.end(), [camera](const StereoPair& pair) {
+    return pair.first == camera || pair.second == camera;
+  });
+}
+
+std::vector<StereoPair> OverlappingPairs(const std::vector<CameraSensor>& cameras) {
+  std::vector<StereoPair> pairs;
+  for (int second = 1; second < static_cast<int>(cameras.size()); ++second) {
+    for (int first = 0; first < second; ++first) {
+      if (HasPair(first, pairs) || HasPair(second, pairs)) continue;
+      const CameraSensor &a = cameras[first], &b = cameras[second];
+      const Eigen::Quaterniond R_A_B = a.T_B_C.rotation.conjugate() * b.T_B_C.rotation;
+      const double shared = SharedView(*CameraModel::Create(a.parameters),
+                                       *CameraModel::Create(b.parameters), R_A_B);
+      if (shared > kMinShared) pairs.push_back({first, second});
+    }
+  }
+  return pairs;
+}
+
+std::vector<StereoPair> ReadPairs(const std::string& text) {
+  static const std::regex pattern("(\\d)-(\\d)");
+  std::vector<StereoPair> pairs;
+  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
+    pairs.push_back({std::stoi((*match)[1]), std::stoi((*match)[2])});
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<StereoPair> StereoPairs(const SensorConfig& sensor) {
+  return sensor.stereo_pairs == "auto" ? OverlappingPairs(sensor.cameras)
+                                       : ReadPairs(sensor.stereo_pairs);
+}
+
+bool IsTracked(int camera, const std::vector<StereoPair>& pairs) {
+  return std::none_of(pairs.begin(), pairs.end(),
+                      [camera](const StereoPair& pair) { return pair.second == camera; });
+}
+
+Problem CheckStereoPairs(const SensorConfig& sensor) {
+  static const std::regex pattern("auto|none|\\d-\\d( \\d-\\d)*");
+  if (!std::regex_match(sensor.stereo_pairs, pattern)) {
+    return "must be auto, none, or pairs of cameras such as 0-1 2-3";
+  }
+  std::vector<StereoPair> pairs;
+  for (const StereoPair& pair : ReadPairs(sensor.stereo_pairs)) {
+    if (pair.first >= pair.second || pair.second >= static_cast<int>(sensor.cameras.size())) {
+      return "must name two cameras below num_of_cam, the smaller number first";
+    }
+    if (HasPair(pair.first, pairs) || HasPair(pair.second, pairs)) {
+      return "must name each camera at most once";
+    }
+    pairs.push_back(pair);
+  }
+  return std::nullopt;
+}
+
+}  // namespace plm_vins

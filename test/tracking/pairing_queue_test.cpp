@@ -8,19 +8,19 @@
 namespace plm_vins {
 namespace {
 
-constexpr int64_t kMillisecond = 1'000'000;
+constexpr int64_t kMilli = 1'000'000;
 
-ImageSample At(int64_t milliseconds) { return {milliseconds * kMillisecond, {}}; }
+ImageSample At(int64_t milliseconds) { return {milliseconds * kMilli, {}}; }
 
-class PairingQueueTest : public testing::Test {
+class PairingQueueTest : public ::testing::Test {
  protected:
   bool IsAwaited(int64_t milliseconds) const {
-    return queue_.IsAwaited(milliseconds * kMillisecond);
+    return queue_.IsAwaited(milliseconds * kMilli);
   }
   // The stamp [ms], or -1.
   int64_t Take(int64_t milliseconds) {
-    const auto taken = queue_.Take(milliseconds * kMillisecond);
-    return taken ? taken->t_ns / kMillisecond : -1;
+    const auto taken = queue_.Take(milliseconds * kMilli);
+    return taken ? taken->t_ns / kMilli : -1;
   }
 
   PairingQueue<ImageSample> queue_;

@@ -9,14 +9,14 @@
 namespace plm_vins {
 namespace {
 
-constexpr int64_t kMillisecond = 1'000'000;
+constexpr int64_t kOneMillisecond = 1'000'000;
 
 // Returns the timestamps [ms] that are selected at `rate` [Hz].
 std::vector<int> Take(double rate, const std::vector<int>& stamps) {
   RateLimiter limiter(rate);
   std::vector<int> taken;
   for (const int t : stamps) {
-    if (limiter.Take(t * kMillisecond)) taken.push_back(t);
+    if (limiter.Take(t * kOneMillisecond)) taken.push_back(t);
   }
   return taken;
 }

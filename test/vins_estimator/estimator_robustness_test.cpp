@@ -20,15 +20,15 @@ using testing::EstimatedFlight;
 using testing::PoseCovariance;
 using testing::SimulatedFlight;
 
-simulator::FeatureSimulationOptions Options(Motion motion, uint64_t seed, double duration) {
+simulator::FeatureSimulationOptions RobustnessOptions(Motion motion, uint64_t seed, double duration) {
   auto options = testing::FlightOptions(motion, seed);
   options.trajectory.duration = duration;
   options.max_points = 80;
   return options;
 }
 
-SimulatedFlight Simulate(Motion motion, uint64_t seed, double duration) {
-  return testing::SimulateFlight(Options(motion, seed, duration));
+SimulatedFlight SimulateRobustness(Motion motion, uint64_t seed, double duration) {
+  return testing::SimulateFlight(RobustnessOptions(motion, seed, duration));
 }
 
 void ExpectSameBits(const EstimatedFlight& a, const EstimatedFlight& b) {
@@ -42,8 +42,8 @@ void ExpectSameBits(const EstimatedFlight& a, const EstimatedFlight& b) {
 }
 
 TEST(EstimatorRobustness, ResetEqualsANewEstimator) {
-  const SimulatedFlight flight = Simulate(Motion::kFast, 1, 8);
-  SimulatedFlight before = Simulate(Motion::kGentle, 2, 6);
+  const SimulatedFlight flight = SimulateRobustness(Motion::kFast, 1, 8);
+  SimulatedFlight before = SimulateRobustness(Motion::kGentle, 2, 6);
   Config config = testing::ConfigFor(flight);
   config.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kRefine;
   config.sensor.estimate_td = true;
@@ -58,7 +58,7 @@ TEST(EstimatorRobustness, ResetEqualsANewEstimator) {
 TEST(EstimatorRobustness, ASecondWithoutPointsCostsCentimeters) {
   for (const Motion motion : {Motion::kGentle, Motion::kFast}) {
     for (uint64_t seed = 1; seed <= 2; ++seed) {
-      SimulatedFlight simulated = Simulate(motion, seed, 15);
+      SimulatedFlight simulated = SimulateRobustness(motion, seed, 15);
       for (size_t i = 180; i < 200; ++i) simulated.frames[i].points.points.clear();
       const EstimatedFlight flight = testing::Estimate(simulated);
       EXPECT_TRUE(flight.restarts.empty());
@@ -75,7 +75,7 @@ TEST(EstimatorRobustness, KnownPointsCorrectDeadReckoning) {
   testing::FlightPlan plan;
   plan.duration = 12;
   plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
-  SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
+  SimulatedFlight flight = testing::PlannedFlight(plan).SimulateRobustness();
   constexpr size_t kBlind = 160, kSees = 220;  // images
   for (size_t i = kBlind; i < kSees; ++i) {
     flight.frames[i].points.points.clear();
@@ -96,7 +96,7 @@ TEST(EstimatorRobustness, KnownPointsCorrectDeadReckoning) {
 }
 
 TEST(EstimatorRobustness, AbsurdImuRestartsWithAReasonAndTracksAgain) {
-  SimulatedFlight flight = Simulate(Motion::kFast, 1, 15);
+  SimulatedFlight flight = SimulateRobustness(Motion::kFast, 1, 15);
   for (size_t i = 120; i < 130; ++i) {
     for (ImuSample& sample : flight.frames[i].imu) {
       sample.gyro *= 10;
@@ -135,7 +135,7 @@ void AddBias(const ImuBias& bias, size_t first, SimulatedFlight* flight) {
 }
 
 TEST(EstimatorRobustness, AStepOfTheGyroBiasIsAbsorbed) {
-  SimulatedFlight simulated = Simulate(Motion::kFast, 1, 15);
+  SimulatedFlight simulated = SimulateRobustness(Motion::kFast, 1, 15);
   AddBias({Eigen::Vector3d::Zero(), {0.05, 0, 0}}, 180, &simulated);
   const EstimatedFlight flight = testing::Estimate(simulated);
   EXPECT_TRUE(flight.restarts.empty());
@@ -151,7 +151,7 @@ TEST(EstimatorRobustness, AStepOfTheGyroBiasIsAbsorbed) {
 
 // No single image contradicts enough, and the learned noise hides it for a while.
 TEST(EstimatorRobustness, ASmallStepOfTheGyroBiasIsAbsorbed) {
-  SimulatedFlight simulated = Simulate(Motion::kFast, 1, 15);
+  SimulatedFlight simulated = SimulateRobustness(Motion::kFast, 1, 15);
   simulated.sensor.imu_noise.accel_density = 0.03;  // as in euroc.yaml
   simulated.sensor.imu_noise.gyro_density = 0.001;
   AddBias({Eigen::Vector3d::Zero(), {0.02, -0.02, 0.02}}, 180, &simulated);
@@ -166,7 +166,7 @@ TEST(EstimatorRobustness, ASmallStepOfTheGyroBiasIsAbsorbed) {
 
 // From the hundredth image on, image timestamps have errors of up to 5 ms.
 SimulatedFlight SimulateJitter(uint64_t seed) {
-  const auto options = Options(Motion::kFast, seed, 20);
+  const auto options = RobustnessOptions(Motion::kFast, seed, 20);
   simulator::FeatureDataset data = simulator::SimulateFeatures(options);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> error(-0.005, 0.005);
@@ -205,7 +205,7 @@ TEST(EstimatorRobustness, StampsThatJitterCostLittle) {
 
 TEST(EstimatorRobustness, NoiseOfAGoodImuIsNeverRaised) {
   for (const Motion motion : {Motion::kGentle, Motion::kFast}) {
-    const EstimatedFlight flight = testing::Estimate(Simulate(motion, 3, 15));
+    const EstimatedFlight flight = testing::Estimate(SimulateRobustness(motion, 3, 15));
     EXPECT_GT(flight.outputs.size(), 200u);
     for (const EstimatorOutput& output : flight.outputs) {
       EXPECT_FALSE(output.imu_doubted);
@@ -226,7 +226,7 @@ void CutOut(size_t first, size_t count, SimulatedFlight* flight) {
 TEST(EstimatorRobustness, ImuErrorIsNotReportedAsDelay) {
   for (const uint64_t seed : {2, 3}) {
     for (const size_t count : {10, 20, 30}) {
-      SimulatedFlight flight = Simulate(Motion::kGentle, seed, 8);
+      SimulatedFlight flight = SimulateRobustness(Motion::kGentle, seed, 8);
       flight.sensor.imu_noise.accel_density = 0.03;  // as in euroc.yaml
       flight.sensor.imu_noise.gyro_density = 0.001;
       CutOut(80, count, &flight);
@@ -240,7 +240,7 @@ TEST(EstimatorRobustness, ImuErrorIsNotReportedAsDelay) {
 }
 
 TEST(EstimatorRobustness, TenSecondsOfBlindnessEndInARestart) {
-  SimulatedFlight simulated = Simulate(Motion::kFast, 1, 20);
+  SimulatedFlight simulated = SimulateRobustness(Motion::kFast, 1, 20);
   for (size_t i = 180; i < 380; ++i) {
     simulated.frames[i].points.points.clear();
     simulated.frames[i].lines.reset();
@@ -272,7 +272,7 @@ void RenamePoints(size_t first, SimulatedFlight* flight) {
 }
 
 TEST(EstimatorRobustness, NewPointsDoNotConstrainThePosition) {
-  SimulatedFlight simulated = Simulate(Motion::kFast, 1, 11);
+  SimulatedFlight simulated = SimulateRobustness(Motion::kFast, 1, 11);
   RenamePoints(180, &simulated);
   Estimator estimator(testing::ConfigFor(simulated));
   int held = 0, on_imu_alone = 0;
@@ -288,7 +288,7 @@ TEST(EstimatorRobustness, NewPointsDoNotConstrainThePosition) {
 }
 
 TEST(EstimatorRobustness, TenSecondsWithoutConstraintEndInARestart) {
-  SimulatedFlight simulated = Simulate(Motion::kFast, 1, 20);
+  SimulatedFlight simulated = SimulateRobustness(Motion::kFast, 1, 20);
   RenamePoints(180, &simulated);
   Config config = testing::ConfigFor(simulated);
   config.sensor.imu_noise.accel_density = 0.03;  // strong vibrations: it drifts by meters
@@ -308,7 +308,7 @@ TEST(EstimatorRobustness, TenSecondsWithoutConstraintEndInARestart) {
 
 // Lines are observed and known points are in the window, but the observations contradict the IMU.
 TEST(EstimatorRobustness, DetectsAFailedAccelerometerWithLinesOnly) {
-  SimulatedFlight simulated = Simulate(Motion::kFast, 1, 11);
+  SimulatedFlight simulated = SimulateRobustness(Motion::kFast, 1, 11);
   for (size_t i = 180; i < simulated.frames.size(); ++i) {
     FrameMeasurement& frame = simulated.frames[i];
     frame.points.points.clear();
@@ -327,7 +327,7 @@ TEST(EstimatorRobustness, DetectsAFailedAccelerometerWithLinesOnly) {
 
 // A doubt so large that the IMU term overflows.
 TEST(EstimatorRobustness, FailedOptimizationIsTrackingLoss) {
-  const SimulatedFlight flight = Simulate(Motion::kFast, 1, 10);
+  const SimulatedFlight flight = SimulateRobustness(Motion::kFast, 1, 10);
   for (const SolverType solver : {SolverType::kSchur, SolverType::kCeres}) {
     Config config = testing::ConfigFor(flight);
     config.estimator.solver = solver;
@@ -347,7 +347,7 @@ TEST(EstimatorRobustness, FailedOptimizationIsTrackingLoss) {
 }
 
 TEST(EstimatorRobustness, NeverStartsWithoutPointsAndStatesTheReason) {
-  SimulatedFlight flight = Simulate(Motion::kFast, 1, 6);
+  SimulatedFlight flight = SimulateRobustness(Motion::kFast, 1, 6);
   Estimator estimator(testing::ConfigFor(flight));
   for (FrameMeasurement& frame : flight.frames) {
     frame.points.points.clear();

@@ -10,7 +10,7 @@ namespace {
 using testing::EstimatedFlight;
 using testing::SimulatedFlight;
 
-constexpr uint64_t kSeeds = 3;
+constexpr uint64_t kShutterSeeds = 3;
 constexpr double kReadout = 0.03;  // [s]
 
 simulator::FeatureSimulationOptions Options(uint64_t seed, bool rolling_shutter) {
@@ -31,12 +31,12 @@ double ErrorOf(const SimulatedFlight& simulated) {
 
 TEST(EstimatorRollingShutterTest, CostsLittleIfConfigured) {
   double global = 0, known = 0, ignored = 0;
-  for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    global += ErrorOf(testing::SimulateFlight(Options(seed, false))) / kSeeds;
+  for (uint64_t seed = 1; seed <= kShutterSeeds; ++seed) {
+    global += ErrorOf(testing::SimulateFlight(Options(seed, false))) / kShutterSeeds;
     SimulatedFlight rolling = testing::SimulateFlight(Options(seed, true));
-    known += ErrorOf(rolling) / kSeeds;
+    known += ErrorOf(rolling) / kShutterSeeds;
     rolling.sensor.rolling_shutter = false;
-    ignored += ErrorOf(rolling) / kSeeds;
+    ignored += ErrorOf(rolling) / kShutterSeeds;
   }
   EXPECT_LT(known, 1.2 * global);
   EXPECT_GT(ignored, 2 * global);

@@ -21,12 +21,12 @@ namespace {
 
 namespace encodings = sensor_msgs::image_encodings;
 
-constexpr int64_t kStamp = 1403636579763555584;  // from EuRoC; exceeds the precision of a double
+constexpr int64_t kImageStamp = 1403636579763555584;  // from EuRoC; exceeds the precision of a double
 
 // A 6 x 4 image whose pixels all consist of the bytes `pixel`.
 sensor_msgs::Image MakeImage(const std::string& encoding, const std::vector<uint8_t>& pixel) {
   sensor_msgs::Image image;
-  image.header.stamp = ToRosTime(kStamp);
+  image.header.stamp = ToRosTime(kImageStamp);
   image.encoding = encoding;
   image.width = 6;
   image.height = 4;
@@ -45,7 +45,7 @@ class ImageEncodings : public ::testing::TestWithParam<EncodingCase> {};
 
 TEST_P(ImageEncodings, AreConvertedToGray) {
   const ImageSample sample = ToImageSample(MakeImage(GetParam().encoding, GetParam().pixel));
-  EXPECT_EQ(sample.t_ns, kStamp);
+  EXPECT_EQ(sample.t_ns, kImageStamp);
   ASSERT_EQ(sample.gray.type(), CV_8UC1);
   ASSERT_EQ(sample.gray.size(), cv::Size(6, 4));
   EXPECT_NEAR(sample.gray.at<uint8_t>(2, 3), GetParam().gray, 1);
@@ -137,11 +137,11 @@ TEST(ImageConversion, RejectsSizesThatOverflow32Bits) {
 
 TEST(ImageConversion, DecodesCompressedImages) {
   sensor_msgs::CompressedImage image;
-  image.header.stamp = ToRosTime(kStamp);
+  image.header.stamp = ToRosTime(kImageStamp);
   image.format = "png";
   cv::imencode(".png", cv::Mat(4, 6, CV_8UC1, cv::Scalar(77)), image.data);
   const ImageSample sample = ToImageSample(image);
-  EXPECT_EQ(sample.t_ns, kStamp);
+  EXPECT_EQ(sample.t_ns, kImageStamp);
   EXPECT_EQ(sample.gray.at<uint8_t>(1, 1), 77);
   image.data.resize(20);
   EXPECT_THROW(ToImageSample(image), std::invalid_argument);

@@ -13,7 +13,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int64_t kStamp = 1403636579763555584;  // from EuRoC; exceeds the precision of a double
+constexpr int64_t kCloudStamp = 1403636579763555584;  // from EuRoC; exceeds the precision of a double
 
 PointFrame ReadPoints(const sensor_msgs::PointCloud& message) {
   int64_t left_out = 0;
@@ -30,7 +30,7 @@ LineFrame ReadBack(const LineFrame& frame) { return ReadLines(ToMessage(frame, "
 
 TEST(FeatureMessage, PointsHaveTheLayoutOfVins) {
   PointFrame frame;
-  frame.t_ns = kStamp;
+  frame.t_ns = kCloudStamp;
   frame.points.push_back({42, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
   const sensor_msgs::PointCloud message = ToMessage(frame, "camera");
   EXPECT_EQ(message.header.frame_id, "camera");
@@ -45,11 +45,11 @@ TEST(FeatureMessage, PointsHaveTheLayoutOfVins) {
 
 TEST(FeatureMessage, PointsSurviveARoundTrip) {
   PointFrame frame;
-  frame.t_ns = kStamp;
+  frame.t_ns = kCloudStamp;
   frame.points.push_back({16'777'215, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
   frame.points.push_back({3, {-0.75, 0.5}, {1, 2}, {0, 0}});
   const PointFrame back = ReadBack(frame);
-  EXPECT_EQ(back.t_ns, kStamp);
+  EXPECT_EQ(back.t_ns, kCloudStamp);
   ASSERT_EQ(back.points.size(), 2u);
   EXPECT_EQ(back.points[0].id, 16'777'215);
   EXPECT_EQ(back.points[0].xy, frame.points[0].xy);
@@ -102,7 +102,7 @@ TEST(FeatureMessage, AcceptsPointsOfBothCamerasOfVinsFusion) {
 
 TEST(FeatureMessage, CamerasAndDepthSurviveARoundTrip) {
   PointFrame frame;
-  frame.t_ns = kStamp;
+  frame.t_ns = kCloudStamp;
   frame.points.push_back({1, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
   frame.points.push_back({2, {0.5, -0.5}, {400.5, 200.25}, {0.125, -2}, 0, 2.5});
   frame.points.push_back({1, {0.125, -0.5}, {280.5, 200.25}, {0.125, -2}, 1});
@@ -174,10 +174,10 @@ TEST(FeatureMessage, LinesOfFurtherCamerasSurviveARoundTrip) {
 
 TEST(FeatureMessage, LinesSurviveARoundTrip) {
   LineFrame frame;
-  frame.t_ns = kStamp;
+  frame.t_ns = kCloudStamp;
   frame.lines.push_back({7, {0.25, -0.5}, {0.5, 0.125}});
   const LineFrame back = ReadBack(frame);
-  EXPECT_EQ(back.t_ns, kStamp);
+  EXPECT_EQ(back.t_ns, kCloudStamp);
   ASSERT_EQ(back.lines.size(), 1u);
   EXPECT_EQ(back.lines[0].id, 7);
   EXPECT_EQ(back.lines[0].start, frame.lines[0].start);
@@ -186,7 +186,7 @@ TEST(FeatureMessage, LinesSurviveARoundTrip) {
 
 TEST(FeatureMessage, LinesHaveTheLayoutOfPlVins) {
   LineFrame frame;
-  frame.t_ns = kStamp;
+  frame.t_ns = kCloudStamp;
   frame.lines.push_back({42, {0.25, -0.5}, {0.5, 0.125}});
   const sensor_msgs::PointCloud message = ToMessage(frame, "camera");
   ASSERT_EQ(message.points.size(), 1u);
@@ -260,8 +260,8 @@ TEST(FeatureMessage, FeaturesBeyondFiveThousandAreDroppedAndCounted) {
 }
 
 TEST(FeatureMessage, RejectsInvalidStamps) {
-  sensor_msgs::PointCloud points = ToMessage(PointFrame{kStamp, {}}, "camera");
-  sensor_msgs::PointCloud lines = ToMessage(LineFrame{kStamp, {}}, "camera");
+  sensor_msgs::PointCloud points = ToMessage(PointFrame{kCloudStamp, {}}, "camera");
+  sensor_msgs::PointCloud lines = ToMessage(LineFrame{kCloudStamp, {}}, "camera");
   points.header.stamp.sec = lines.header.stamp.sec = std::numeric_limits<uint32_t>::max();
   points.header.stamp.nsec = lines.header.stamp.nsec = 999'999'999;
   EXPECT_NO_THROW(ReadPoints(points));

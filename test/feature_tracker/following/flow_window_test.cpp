@@ -11,7 +11,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int kSize = 160;
-const cv::Point2f kCenter(80.3F, 75.6F);
+const cv::Point2f kFlowCenter(80.3F, 75.6F);
 
 // Adds the border that the window requires.
 cv::Mat Bordered(const cv::Mat& image, int side) {
@@ -41,22 +41,22 @@ class FlowWindowTest : public testing::TestWithParam<int> {
 
 TEST_P(FlowWindowTest, StaysAtItsOrigin) {
   const cv::Mat image = Waves(GetParam());
-  ASSERT_TRUE(window_.Cut(image, kCenter));
-  const auto step = window_.Step(image, kCenter);
+  ASSERT_TRUE(window_.Cut(image, kFlowCenter));
+  const auto step = window_.Step(image, kFlowCenter);
   ASSERT_TRUE(step);
   EXPECT_LT(cv::norm(*step), 0.002);
 }
 
 TEST_P(FlowWindowTest, StepsToTheMotion) {
   const cv::Point2d shift(0.37, -0.22);
-  ASSERT_TRUE(window_.Cut(Waves(GetParam()), kCenter));
+  ASSERT_TRUE(window_.Cut(Waves(GetParam()), kFlowCenter));
   const cv::Mat moved = Waves(GetParam(), shift);
-  const auto first = window_.Step(moved, kCenter);
+  const auto first = window_.Step(moved, kFlowCenter);
   ASSERT_TRUE(first);
   EXPECT_LT(cv::norm(cv::Point2d(*first) - shift), 0.1 * cv::norm(shift));
-  cv::Point2f center = kCenter;
+  cv::Point2f center = kFlowCenter;
   for (int i = 0; i < 4; ++i) center += window_.Step(moved, center).value();
-  EXPECT_LT(cv::norm(cv::Point2d(center - kCenter) - shift), 0.02);
+  EXPECT_LT(cv::norm(cv::Point2d(center - kFlowCenter) - shift), 0.02);
 }
 
 TEST_P(FlowWindowTest, IgnoresPixelsBeyondItsSide) {
@@ -96,16 +96,16 @@ TEST_P(FlowWindowTest, DoesNotOverflowAtFullContrast) {
 
 TEST_P(FlowWindowTest, NeedsTextureInBothDirections) {
   const cv::Mat flat(kSize, kSize, CV_8UC1, cv::Scalar(90));
-  EXPECT_FALSE(window_.Cut(Bordered(flat, GetParam()), kCenter));
+  EXPECT_FALSE(window_.Cut(Bordered(flat, GetParam()), kFlowCenter));
   cv::Mat stripes(kSize, kSize, CV_8UC1);
   for (int x = 0; x < kSize; ++x) stripes.col(x) = 128 + 90 * std::sin(x / 3.0);
-  EXPECT_FALSE(window_.Cut(Bordered(stripes, GetParam()), kCenter));
-  EXPECT_TRUE(window_.Cut(Waves(GetParam()), kCenter));
+  EXPECT_FALSE(window_.Cut(Bordered(stripes, GetParam()), kFlowCenter));
+  EXPECT_TRUE(window_.Cut(Waves(GetParam()), kFlowCenter));
 }
 
 TEST_P(FlowWindowTest, ReachesTheCornersOfTheImageAndNotFarBeyond) {
   const cv::Mat image = Waves(GetParam());
-  ASSERT_TRUE(window_.Cut(image, kCenter));
+  ASSERT_TRUE(window_.Cut(image, kFlowCenter));
   for (const float x : {0.0F, kSize - 1.0F}) {
     for (const float y : {0.0F, kSize - 1.0F}) {
       EXPECT_TRUE(window_.Step(image, {x, y})) << x << ' ' << y;

@@ -9,11 +9,11 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kFocal = 458;
+constexpr double kRefinementFocal = 458;
 
 LineSegment Moved(const LineSegment& segment, double start_px, double end_px) {
-  return {segment.start + start_px / kFocal * segment.Normal(),
-          segment.end + end_px / kFocal * segment.Normal()};
+  return {segment.start + start_px / kRefinementFocal * segment.Normal(),
+          segment.end + end_px / kRefinementFocal * segment.Normal()};
 }
 
 LineSegment Orient(const LineScene& scene, const cv::Mat& image, const LineSegment& guess) {
@@ -27,12 +27,12 @@ double LargestErrorInPixels(const LineScene& scene, const cv::Mat& image, int* r
   double largest = 0;
   int edges = 0;
   for (const LineSegment& edge : scene.Edges()) {
-    if (kFocal * edge.Length() < 55) continue;
+    if (kRefinementFocal * edge.Length() < 55) continue;
     const LineSegment guess = Moved(edge, ++edges % 2 == 0 ? 2.5 : -1.5, 1.0);
     const auto refined = refinement.Refine(image, Orient(scene, image, guess), 4);
     if (!refined) continue;
     ++*refined_count;
-    largest = std::max(largest, NormalErrorInPixels(edge, *refined, kFocal));
+    largest = std::max(largest, NormalErrorInPixels(edge, *refined, kRefinementFocal));
   }
   return largest;
 }
@@ -69,7 +69,7 @@ TEST(LineRefinementTest, FollowsTheBendOfALongLine) {
   const LineSegment edge = scene.Edges()[0];
   const auto refined = refinement.Refine(image, Orient(scene, image, Moved(edge, 2, -2)), 4);
   ASSERT_TRUE(refined);
-  EXPECT_LT(NormalErrorInPixels(edge, *refined, kFocal), 0.15);
+  EXPECT_LT(NormalErrorInPixels(edge, *refined, kRefinementFocal), 0.15);
   EXPECT_GT(refined->Length(), 0.9 * edge.Length());
 }
 
@@ -110,8 +110,8 @@ TEST_F(SingleBarTest, TrimsEndsThatReachTooFar) {
   const LineSegment guess{scene_.ToNormalised({170, 180}), scene_.ToNormalised({520, 180})};
   const auto refined = refinement_.Refine(image_, guess, 4);
   ASSERT_TRUE(refined);
-  EXPECT_NEAR(kFocal * refined->start.x() + 375.5, 200, 12);
-  EXPECT_NEAR(kFocal * refined->end.x() + 375.5, 500, 12);
+  EXPECT_NEAR(kRefinementFocal * refined->start.x() + 375.5, 200, 12);
+  EXPECT_NEAR(kRefinementFocal * refined->end.x() + 375.5, 500, 12);
 }
 
 TEST_F(SingleBarTest, GrowsToTheEndsOfTheEdge) {
@@ -121,8 +121,8 @@ TEST_F(SingleBarTest, GrowsToTheEndsOfTheEdge) {
     ASSERT_TRUE(refined);
     line = *refined;
   }
-  EXPECT_NEAR(kFocal * line.start.x() + 375.5, 200, 8);
-  EXPECT_NEAR(kFocal * line.end.x() + 375.5, 500, 8);
+  EXPECT_NEAR(kRefinementFocal * line.start.x() + 375.5, 200, 8);
+  EXPECT_NEAR(kRefinementFocal * line.end.x() + 375.5, 500, 8);
 }
 
 TEST_F(SingleBarTest, KeepsDistanceFromTheBorder) {
@@ -130,8 +130,8 @@ TEST_F(SingleBarTest, KeepsDistanceFromTheBorder) {
   scene.AddBar({-100, 200}, {900, 200}, 40, 200);
   LineSegment line{scene.ToNormalised({10, 180}), scene.ToNormalised({740, 180})};
   for (int i = 0; i < 3; ++i) line = *refinement_.Refine(scene.View(), line, 2);
-  EXPECT_GE(kFocal * line.start.x() + 375.5, LineTrackerConfig().border);
-  EXPECT_LE(kFocal * line.end.x() + 375.5, 751 - LineTrackerConfig().border);
+  EXPECT_GE(kRefinementFocal * line.start.x() + 375.5, LineTrackerConfig().border);
+  EXPECT_LE(kRefinementFocal * line.end.x() + 375.5, 751 - LineTrackerConfig().border);
 }
 
 TEST_F(SingleBarTest, EndsWhereTheMaskBegins) {
@@ -140,8 +140,8 @@ TEST_F(SingleBarTest, EndsWhereTheMaskBegins) {
   const LineRefinement masked(LineTrackerConfig(), scene_.camera(), mask);
   const auto refined = masked.Refine(image_, Upper(), 4);
   ASSERT_TRUE(refined);
-  EXPECT_NEAR(kFocal * refined->start.x() + 375.5, 200, 12);
-  EXPECT_NEAR(kFocal * refined->end.x() + 375.5, 344, 6);
+  EXPECT_NEAR(kRefinementFocal * refined->start.x() + 375.5, 200, 12);
+  EXPECT_NEAR(kRefinementFocal * refined->end.x() + 375.5, 344, 6);
   mask.setTo(0);
   EXPECT_FALSE(
       LineRefinement(LineTrackerConfig(), scene_.camera(), mask).Refine(image_, Upper(), 4));

@@ -16,11 +16,11 @@
 namespace plm_vins {
 namespace {
 
-constexpr int64_t kStart = 1403636579763555584;
+constexpr int64_t kFileStart = 1403636579763555584;
 
 TrackedItem ImuItem() {
   TrackedItem item;
-  item.imu = {kStart - 5, {0.1, -0.2, 0.3}, {9.7, 1e-9, -0.4}};
+  item.imu = {kFileStart - 5, {0.1, -0.2, 0.3}, {9.7, 1e-9, -0.4}};
   return item;
 }
 
@@ -28,13 +28,13 @@ TrackedItem FrameItem() {
   TrackedItem item;
   item.frame = std::make_unique<TrackedFeatures>();
   TrackedPoints& points = item.frame->points;
-  points.features.t_ns = kStart;
+  points.features.t_ns = kFileStart;
   points.features.points.push_back({7, {0.1, 0.2}, {300.25, 200.5}, {-1, 2}});
   points.features.points.push_back({9, {1 / 3.0, -0.2}, {0, 0}, {0, 0}});
   points.statistics.epipolar_outliers = 3;
   points.publish = false;
   TrackedLines& lines = item.frame->lines.emplace();
-  lines.features.t_ns = kStart;
+  lines.features.t_ns = kFileStart;
   lines.features.lines = {{4, {0.1, 0.1}, {-0.3, 0.7}}};
   lines.statistics.added = 2;
   lines.restart = true;
@@ -71,13 +71,13 @@ TEST_F(FeatureFile, SurvivesARoundTrip) {
   EXPECT_EQ(reader.tracker_values(), kValues);
   const auto imu = reader.Next();
   ASSERT_TRUE(imu && !imu->frame);
-  EXPECT_EQ(imu->t_ns(), kStart - 5);
+  EXPECT_EQ(imu->t_ns(), kFileStart - 5);
   EXPECT_EQ(imu->imu.gyro, ImuItem().imu.gyro);
   EXPECT_EQ(imu->imu.accel, ImuItem().imu.accel);
 
   const auto item = reader.Next();
   ASSERT_TRUE(item && item->frame && item->frame->lines);
-  EXPECT_EQ(item->t_ns(), kStart);
+  EXPECT_EQ(item->t_ns(), kFileStart);
   const TrackedPoints& points = item->frame->points;
   ASSERT_EQ(points.features.points.size(), 2u);
   EXPECT_EQ(points.features.points[0].id, 7);

@@ -12,7 +12,7 @@ using testing::StillConfig;
 using testing::StillImu;
 using testing::StillPicture;
 
-constexpr int64_t kMillisecond = 1'000'000;
+constexpr int64_t kOneMillisecond = 1'000'000;
 
 // A run with irregular input: a repeated image, one of another size, a gap of the gyroscope, a gap
 // between images, and timestamps that start again.
@@ -21,8 +21,8 @@ std::vector<TrackedFeatures> AwkwardRun(FeatureTrackers* trackers) {
   const auto add = [&](int t, const cv::Mat& picture) {
     const bool gyro = t < 1000 || t > 1500;
     for (int imu = t - 45; gyro && imu <= t; imu += 5)
-      trackers->AddImu(StillImu((10'000 + imu) * kMillisecond));
-    trackers->AddImage({(10'000 + t) * kMillisecond, picture});
+      trackers->AddImu(StillImu((10'000 + imu) * kOneMillisecond));
+    trackers->AddImage({(10'000 + t) * kOneMillisecond, picture});
     while (auto frame = trackers->Pop()) frames.push_back(std::move(*frame));
   };
   for (int t = 0; t < 2000; t += 50) add(t, StillPicture());

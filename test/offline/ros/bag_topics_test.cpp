@@ -25,16 +25,16 @@ using ::testing::HasSubstr;
 using testing::ReadAll;
 using testing::RecordingContents;
 
-constexpr int64_t kStart = 1'500'000'000'000'000'000;
-constexpr int64_t kStep = 10'000'000;  // IMU at 100 Hz, an image every fifth time
-constexpr int kSamples = 100;
-constexpr int kImages = 20;
+constexpr int64_t kTopicsStart = 1'500'000'000'000'000'000;
+constexpr int64_t kTopicsStep = 10'000'000;  // IMU at 100 Hz, an image every fifth time
+constexpr int kTopicsSamples = 100;
+constexpr int kTopicsImages = 20;
 
-ros::Time Stamp(int i) { return ToRosTime(kStart + i * kStep); }
+ros::Time TopicStamp(int i) { return ToRosTime(kTopicsStart + i * kTopicsStep); }
 
 sensor_msgs::Image Image(int i) {
   sensor_msgs::Image image;
-  image.header.stamp = Stamp(i);
+  image.header.stamp = TopicStamp(i);
   image.encoding = "mono8";
   image.width = image.step = 64;
   image.height = 48;
@@ -42,9 +42,9 @@ sensor_msgs::Image Image(int i) {
   return image;
 }
 
-sensor_msgs::Imu Imu(int i) {
+sensor_msgs::Imu TopicImu(int i) {
   sensor_msgs::Imu imu;
-  imu.header.stamp = Stamp(i);
+  imu.header.stamp = TopicStamp(i);
   imu.linear_acceleration.z = 9.81;
   return imu;
 }
@@ -58,23 +58,23 @@ void WriteApart(const std::string& topic, int i, const Message& message, rosbag:
   (*header)["type"] = ros::message_traits::datatype<Message>();
   (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
   (*header)["message_definition"] = ros::message_traits::definition<Message>();
-  bag->write(topic, Stamp(i), message, header);
+  bag->write(topic, TopicStamp(i), message, header);
 }
 
 class BagTopics : public ::testing::Test {
  protected:
   void WriteImages(rosbag::Bag* bag) {
-    for (int i = 0; i < kSamples; i += 5) bag->write("/cam0/image_raw", Stamp(i), Image(i));
+    for (int i = 0; i < kTopicsSamples; i += 5) bag->write("/cam0/image_raw", TopicStamp(i), Image(i));
   }
   void WriteImu(rosbag::Bag* bag) {
-    for (int i = 0; i < kSamples; ++i) bag->write("/imu0", Stamp(i), Imu(i));
+    for (int i = 0; i < kTopicsSamples; ++i) bag->write("/imu0", TopicStamp(i), TopicImu(i));
   }
 
   std::unique_ptr<Recording> Open() { return OpenBags({file_}, {"/cam0/image_raw"}, "/imu0"); }
 
   void ExpectComplete(const RecordingContents& contents) {
-    EXPECT_EQ(contents.images.size(), size_t{kImages});
-    EXPECT_EQ(contents.imu.size(), size_t{kSamples});
+    EXPECT_EQ(contents.images.size(), size_t{kTopicsImages});
+    EXPECT_EQ(contents.imu.size(), size_t{kTopicsSamples});
     EXPECT_EQ(contents.problems.at("messages_malformed"), 0);
     EXPECT_EQ(contents.problems.at("bag_damaged"), 0);
   }
@@ -85,7 +85,7 @@ class BagTopics : public ::testing::Test {
 
 // The messages come before or after the images.
 TEST_F(BagTopics, MessagesOfAnotherTypeAreCountedAndSkipped) {
-  for (const int stray_at : {-1, kSamples}) {
+  for (const int stray_at : {-1, kTopicsSamples}) {
     {
       rosbag::Bag bag(file_, rosbag::bagmode::Write);
       WriteApart("/imu0", stray_at, std_msgs::Bool(), &bag);
@@ -109,8 +109,8 @@ TEST_F(BagTopics, MessagesOfAnotherTypeAreCountedAndSkipped) {
 TEST_F(BagTopics, ATopicMayHaveImagesAndSamples) {
   {
     rosbag::Bag bag(file_, rosbag::bagmode::Write);
-    for (int i = 0; i < kSamples; ++i) {
-      bag.write("/data", Stamp(i), Imu(i));
+    for (int i = 0; i < kTopicsSamples; ++i) {
+      bag.write("/data", TopicStamp(i), TopicImu(i));
       if (i % 5 == 0) WriteApart("/data", i, Image(i), &bag);
     }
   }

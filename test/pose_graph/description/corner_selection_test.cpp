@@ -48,12 +48,12 @@ TEST(SelectCorners, StopsAtTheMaximumIncludingKnownCorners) {
   options.max_corners = 2;
   EXPECT_EQ(SelectCorners(options, gray, {{200, 200}}).size(), 1u);
   options.max_corners = 1;
-  EXPECT_THAT(SelectCorners(options, gray, {{200, 200}, {210, 30}}), testing::IsEmpty());
+  EXPECT_THAT(SelectCorners(options, gray, {{200, 200}, {210, 30}}), ::testing::IsEmpty());
 }
 
 TEST(SelectCorners, KeepsDistanceFromTheBorder) {
   EXPECT_THAT(SelectCorners(CornerSelectionOptions(), Squares({{5, 5}}, {200}), {}),
-              testing::IsEmpty());
+              ::testing::IsEmpty());
 }
 
 // Selects the corners in a single pass over the whole image.
@@ -140,7 +140,7 @@ TEST(SelectCorners, SelectsTheSameAsInOnePass) {
 TEST(SelectCorners, FindsNoneInsideTheBorder) {
   simulator::Random random(1);
   EXPECT_THAT(SelectCorners(CornerSelectionOptions(), Texture({300, 48}, &random), {}),
-              testing::IsEmpty());
+              ::testing::IsEmpty());
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-class ImageSamplingTest : public testing::Test {
+class ImageSamplingTest : public ::testing::Test {
  protected:
   ImageSamplingTest() {
     cv::theRNG().state = 7;

@@ -38,7 +38,7 @@ Tangent RandomTangent(simulator::Random* random, double scale) {
   return result;
 }
 
-Pose RandomPose(simulator::Random* random) {
+Pose RandomUnitPose(simulator::Random* random) {
   Pose identity;
   identity << 0, 0, 0, 0, 0, 0, 1;
   return Plus(identity, RandomTangent(random, 1.7));
@@ -46,7 +46,7 @@ Pose RandomPose(simulator::Random* random) {
 
 TEST(PoseManifold, PlusZeroIsNeutral) {
   simulator::Random random(1);
-  const Pose x = RandomPose(&random);
+  const Pose x = RandomUnitPose(&random);
   EXPECT_MATRIX_NEAR(Plus(x, Tangent::Zero()), x, 1e-15);
   EXPECT_MATRIX_NEAR(Minus(x, x), Tangent::Zero(), 1e-15);
 }
@@ -54,10 +54,10 @@ TEST(PoseManifold, PlusZeroIsNeutral) {
 TEST(PoseManifold, MinusInvertsPlus) {
   simulator::Random random(2);
   for (int i = 0; i < 100; ++i) {
-    const Pose x = RandomPose(&random);
+    const Pose x = RandomUnitPose(&random);
     const Tangent delta = RandomTangent(&random, i % 2 == 0 ? 1.7 : 1e-9);  // below pi, and tiny
     EXPECT_MATRIX_NEAR(Minus(Plus(x, delta), x), delta, 1e-12);
-    const Pose y = RandomPose(&random);
+    const Pose y = RandomUnitPose(&random);
     const Pose back = Plus(x, Minus(y, x));
     EXPECT_MATRIX_NEAR(back.head<3>(), y.head<3>(), 1e-12);
     EXPECT_LT(Rotation(back).angularDistance(Rotation(y)), 1e-7);
@@ -67,7 +67,7 @@ TEST(PoseManifold, MinusInvertsPlus) {
 
 TEST(PoseManifold, PerturbsTheRotationOnTheRight) {
   simulator::Random random(3);
-  const Pose x = RandomPose(&random);
+  const Pose x = RandomUnitPose(&random);
   Tangent delta;
   delta << 1, 2, 3, 0.1, -0.2, 0.3;
   const Pose y = Plus(x, delta);
@@ -77,7 +77,7 @@ TEST(PoseManifold, PerturbsTheRotationOnTheRight) {
 
 TEST(PoseManifold, QuaternionsOfOppositeSignAreEqual) {
   simulator::Random random(4);
-  const Pose x = RandomPose(&random);
+  const Pose x = RandomUnitPose(&random);
   const Tangent delta = RandomTangent(&random, 0.1);
   Pose y = Plus(x, delta);
   y.tail<4>() *= -1;
@@ -86,7 +86,7 @@ TEST(PoseManifold, QuaternionsOfOppositeSignAreEqual) {
 
 TEST(PoseManifold, PlusMayWriteOverItsInput) {
   simulator::Random random(5);
-  Pose x = RandomPose(&random);
+  Pose x = RandomUnitPose(&random);
   const Tangent delta = RandomTangent(&random, 1.0);
   const Pose expected = Plus(x, delta);
   PosePlus(x.data(), delta.data(), x.data());

@@ -19,7 +19,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Result = LineTriangulationResult;
 
-constexpr double kNoise = 1.0 / 460.0;
+constexpr double kEndNoise = 1.0 / 460.0;
 
 const Vector3d kAlong = Vector3d::UnitX();  // direction of the line in most tests
 const Vector3d kAcross = Vector3d::UnitY();
@@ -61,7 +61,7 @@ double Distance(const Vector3d& p_W, const TriangulatedLine& found,
   return (p_W.cross(line_W.direction) - line_W.moment).norm() / line_W.direction.norm();
 }
 
-Result ResultOf(const std::vector<PosedLineObservation>& observations, double noise = kNoise) {
+Result ResultOf(const std::vector<PosedLineObservation>& observations, double noise = kEndNoise) {
   return TriangulateLine(LineTriangulationOptions(noise), observations).result;
 }
 
@@ -69,7 +69,7 @@ Result ResultOf(const std::vector<PosedLineObservation>& observations, double no
 int CountAccepted(const Vector3d& travel, int trials) {
   int accepted = 0;
   for (int seed = 1; seed <= trials; ++seed) {
-    accepted += ResultOf(SeeOnTheWay(travel, kNoise, seed)) == Result::kOk;
+    accepted += ResultOf(SeeOnTheWay(travel, kEndNoise, seed)) == Result::kOk;
   }
   return accepted;
 }
@@ -117,10 +117,10 @@ TEST(TriangulateLine, ErrorMatchesTheNoise) {
   constexpr int kTrials = 400;
   double nees = 0;
   for (int seed = 1; seed <= kTrials; ++seed) {
-    const auto observations = SeeOnTheWay({0.2, 0.8, 0.1}, kNoise, seed);
-    const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(kNoise), observations);
+    const auto observations = SeeOnTheWay({0.2, 0.8, 0.1}, kEndNoise, seed);
+    const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(kEndNoise), observations);
     ASSERT_EQ(found.result, Result::kOk);
-    const auto fit = EvaluateLine(observations, kNoise, found.line);
+    const auto fit = EvaluateLine(observations, kEndNoise, found.line);
     ASSERT_TRUE(fit);
     const Rigid3d T_C0_W = observations.front().T_W_C.Inverse();
     const OrthonormalLine truth =
@@ -149,7 +149,7 @@ TEST(TriangulateLine, RejectsExactDegeneracy) {
         const Vector3d turn = turns ? Vector3d(0.02 * i, -0.01 * i, 0.03 * i) : Vector3d(0, 0, 0);
         observations.push_back(See({}, {SO3Exp(turn), 0.2 * i * travel}));
       }
-      for (const double noise : {1e-6, kNoise}) {
+      for (const double noise : {1e-6, kEndNoise}) {
         EXPECT_EQ(ResultOf(observations, noise), Result::kDegenerate)
             << travel.transpose() << (turns ? " with turns" : "");
       }
@@ -176,14 +176,14 @@ TEST(TriangulateLine, AcceptsMotionAcrossTheLine) {
 TEST(TriangulateLine, AcceptsShortLines) {
   const Segment segment{{-0.2, 0.1, 4}, {0.1, -0.1, 4.1}};  // 45 pixels
   for (int seed = 1; seed <= 300; ++seed) {
-    const auto observations = SeeOnTheWay(0.3 * kAcross, kNoise, seed, segment);
+    const auto observations = SeeOnTheWay(0.3 * kAcross, kEndNoise, seed, segment);
     EXPECT_EQ(ResultOf(observations), Result::kOk) << seed;
   }
 }
 
 TEST(TriangulateLine, WaitsForABaselineThatRisesAboveTheNoise) {
   // Parallax of the whole path relative to the noise: 4.6, 460.
-  for (const double noise : {0.1 * kNoise, kNoise}) {
+  for (const double noise : {0.1 * kEndNoise, kEndNoise}) {
     EXPECT_EQ(ResultOf(SeeOnTheWay(2 * noise * kAcross, 0, 1), noise), Result::kDegenerate);
     EXPECT_EQ(ResultOf(SeeOnTheWay(200 * noise * kAcross, 0, 1), noise), Result::kOk);
   }
@@ -191,8 +191,8 @@ TEST(TriangulateLine, WaitsForABaselineThatRisesAboveTheNoise) {
 
 TEST(TriangulateLine, RejectsTheSameGeometryWithMoreNoise) {
   const auto observations = SeeOnTheWay(0.2 * kAcross, 0, 1);
-  EXPECT_EQ(ResultOf(observations, 0.3 * kNoise), Result::kOk);
-  EXPECT_EQ(ResultOf(observations, 10 * kNoise), Result::kDegenerate);
+  EXPECT_EQ(ResultOf(observations, 0.3 * kEndNoise), Result::kOk);
+  EXPECT_EQ(ResultOf(observations, 10 * kEndNoise), Result::kDegenerate);
   // The standard deviation of the depth is proportional to the noise.
   const auto is_known = [&](double max_deviation, double noise) {
     LineTriangulationOptions options(noise);
@@ -200,16 +200,16 @@ TEST(TriangulateLine, RejectsTheSameGeometryWithMoreNoise) {
     return TriangulateLine(options, observations).result == Result::kOk;
   };
   double limit = 1e-4;
-  while (!is_known(limit, kNoise)) limit *= 1.01;
-  EXPECT_TRUE(is_known(10.2 * limit, 10 * kNoise));
-  EXPECT_FALSE(is_known(9.8 * limit, 10 * kNoise));
+  while (!is_known(limit, kEndNoise)) limit *= 1.01;
+  EXPECT_TRUE(is_known(10.2 * limit, 10 * kEndNoise));
+  EXPECT_FALSE(is_known(9.8 * limit, 10 * kEndNoise));
 }
 
 // The depth errors of barely accepted lines agree with the permitted standard deviation.
 TEST(TriangulateLine, StatesTheDeviationOfItsDepth) {
   constexpr int kTrials = 400;
   const Vector3d travel = 0.06 * kAcross;
-  LineTriangulationOptions options(kNoise);
+  LineTriangulationOptions options(kEndNoise);
   while (TriangulateLine(options, SeeOnTheWay(travel, 0, 1)).result == Result::kOk) {
     options.max_depth_deviation *= 0.99;
   }
@@ -217,7 +217,7 @@ TEST(TriangulateLine, StatesTheDeviationOfItsDepth) {
   options.max_depth_deviation = 10;
   std::vector<double> errors;
   for (int seed = 1; seed <= kTrials; ++seed) {
-    const auto observations = SeeOnTheWay(travel, kNoise, seed);
+    const auto observations = SeeOnTheWay(travel, kEndNoise, seed);
     const TriangulatedLine found = TriangulateLine(options, observations);
     const LineEnds ends = EndsOf(ToPlucker(found.line.data()), observations.front().segment);
     const double start = (observations.front().T_W_C.Inverse() * Segment().start).z();
@@ -242,7 +242,7 @@ TEST(TriangulateLine, RejectsLinesBehindACamera) {
 }
 
 TEST(TriangulateLine, RejectsContradictingObservations) {
-  auto observations = SeeOnTheWay(kAcross, kNoise, 1);
+  auto observations = SeeOnTheWay(kAcross, kEndNoise, 1);
   EXPECT_EQ(ResultOf(observations), Result::kOk);
   // Half of the observations are of another, parallel line.
   const Segment other{Segment().start + 0.3 * kAcross, Segment().end + 0.3 * kAcross};
@@ -254,13 +254,13 @@ TEST(TriangulateLine, RejectsContradictingObservations) {
 
 TEST(TriangulateLine, SurvivesSegmentsWithoutLengthOrNumbers) {
   const double nan = std::nan("");
-  const auto observations = SeeOnTheWay(kAcross, kNoise, 1);
+  const auto observations = SeeOnTheWay(kAcross, kEndNoise, 1);
   for (const LineSegmentView& bad :
        {LineSegmentView{{0.1, 0.2}, {0.1, 0.2}}, LineSegmentView{{nan, 0}, {1, 0}}}) {
     for (const size_t place : {size_t{0}, size_t{4}}) {
       auto with_bad = observations;
       with_bad[place].segment = bad;
-      const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(kNoise), with_bad);
+      const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(kEndNoise), with_bad);
       if (found.result != Result::kOk) continue;
       for (const double value : found.line) EXPECT_TRUE(std::isfinite(value));
     }

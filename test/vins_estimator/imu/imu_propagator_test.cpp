@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-const Vector3d kGravity_W(0, 0, -9.81);
+const Vector3d kPropagatorGravity_W(0, 0, -9.81);
 constexpr int64_t kMillisecond = 1'000'000;
 
 class ImuPropagatorTest : public ::testing::Test {
@@ -38,7 +38,7 @@ class ImuPropagatorTest : public ::testing::Test {
     while (samples_[i + 1].t_ns <= t_ns) ++i;
     preintegration.Append(InterpolateImu(samples_[i], samples_[i + 1], t_ns));
     for (++i; i <= last; ++i) preintegration.Append(samples_[i]);
-    return preintegration.Predict(start_, kGravity_W);
+    return preintegration.Predict(start_, kPropagatorGravity_W);
   }
 
   static void ExpectSame(const std::optional<FrameState>& actual, const FrameState& expected) {
@@ -51,14 +51,14 @@ class ImuPropagatorTest : public ::testing::Test {
 
   std::vector<ImuSample> samples_;  // 200 Hz from 0
   FrameState start_;
-  ImuPropagator propagator_{kGravity_W};
+  ImuPropagator propagator_{kPropagatorGravity_W};
 };
 
 // The twist of ~imu_propagate is that of ~odometry.
 TEST_F(ImuPropagatorTest, AngularVelocityIsCorrectedAndWithoutBias) {
   ImuSensor sensor;
   sensor.gyro_correction << 0, -1.1, 0, 0.9, 0, 0, 0, 0, 1;
-  ImuPropagator propagator(kGravity_W, sensor);
+  ImuPropagator propagator(kPropagatorGravity_W, sensor);
   propagator.Reset(start_, 0);
   for (size_t i = 0; i < 10; ++i) {
     ASSERT_TRUE(propagator.Add(Uncorrected(samples_[i], sensor)));
@@ -137,7 +137,7 @@ TEST_F(ImuPropagatorTest, ReturnsNulloptAfterClear) {
 }
 
 TEST_F(ImuPropagatorTest, IgnoresImpossibleSamples) {
-  ImuPropagator propagator(kGravity_W);
+  ImuPropagator propagator(kPropagatorGravity_W);
   for (size_t i = 0; i <= 200; ++i) propagator.Add(samples_[i]);
   propagator.Reset(start_, samples_[100].t_ns);
   ImuSample absurd = samples_[200];
@@ -160,7 +160,7 @@ TEST_F(ImuPropagatorTest, SpikeIsDelayedAndReplaced) {
 }
 
 TEST_F(ImuPropagatorTest, ASampleAloneInTheFutureIsIgnored) {
-  ImuPropagator propagator(kGravity_W);
+  ImuPropagator propagator(kPropagatorGravity_W);
   for (size_t i = 0; i <= 200; ++i) propagator.Add(samples_[i]);
   propagator.Reset(start_, samples_[100].t_ns);
   ImuSample future = samples_[201];

@@ -44,29 +44,29 @@ struct TwoViews {
 };
 
 // Typical motion of a quarter of a second of hovering and rotating.
-const TwoViews kViews{SO3Exp({0.05, -0.1, 0.03}), {0.3, -0.05, 0.1}};
+const TwoViews kTwoViews{SO3Exp({0.05, -0.1, 0.03}), {0.3, -0.05, 0.1}};
 // The gyroscope's rotation, with the error of a bias of 0.1 rad/s over that time.
-const Quaterniond kGyro = SO3Exp({0.02, -0.01, 0.01}) * kViews.R_C1_C0;
+const Quaterniond kGyro = SO3Exp({0.02, -0.01, 0.01}) * kTwoViews.R_C1_C0;
 
 TEST(RelativePoseTest, FindsRotationAndDirectionUnderNoiseAndOutliers) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     std::string reason;
     const auto pose =
-        EstimateRelativePose(kViews.Observe(120, kNoise, 0.2, seed), kGyro, kNoise, &reason);
+        EstimateRelativePose(kTwoViews.Observe(120, kNoise, 0.2, seed), kGyro, kNoise, &reason);
     ASSERT_TRUE(pose) << "seed " << seed << ": " << reason;
-    EXPECT_LT(pose->R_C1_C0.angularDistance(kViews.R_C1_C0), 0.004) << "seed " << seed;
-    EXPECT_LT(testing::AngleBetween(pose->t_C1_C0, kViews.t_C1_C0), 0.05) << "seed " << seed;
+    EXPECT_LT(pose->R_C1_C0.angularDistance(kTwoViews.R_C1_C0), 0.004) << "seed " << seed;
+    EXPECT_LT(testing::AngleBetween(pose->t_C1_C0, kTwoViews.t_C1_C0), 0.05) << "seed " << seed;
     EXPECT_GT(pose->num_inliers, 80) << "seed " << seed;
   }
 }
 
 TEST(RelativePoseTest, ExactPointsGiveThePose) {
   std::string reason;
-  const auto pose = EstimateRelativePose(kViews.Observe(60, 0, 0, 1), kGyro, kNoise, &reason);
+  const auto pose = EstimateRelativePose(kTwoViews.Observe(60, 0, 0, 1), kGyro, kNoise, &reason);
   ASSERT_TRUE(pose) << reason;
   // The remaining error is caused by the gyroscope prior.
-  EXPECT_LT(pose->R_C1_C0.angularDistance(kViews.R_C1_C0), 1e-4);
-  EXPECT_LT(testing::AngleBetween(pose->t_C1_C0, kViews.t_C1_C0), 1e-4);
+  EXPECT_LT(pose->R_C1_C0.angularDistance(kTwoViews.R_C1_C0), 1e-4);
+  EXPECT_LT(testing::AngleBetween(pose->t_C1_C0, kTwoViews.t_C1_C0), 1e-4);
   EXPECT_NEAR(pose->t_C1_C0.norm(), 1, 1e-12);
 }
 
@@ -76,9 +76,9 @@ TEST(RelativePoseTest, StatedInformationMatchesTheSpread) {
   for (uint64_t seed = 1; seed <= kRuns; ++seed) {
     std::string reason;
     const auto pose =
-        EstimateRelativePose(kViews.Observe(120, kNoise, 0, seed), kGyro, kNoise, &reason);
+        EstimateRelativePose(kTwoViews.Observe(120, kNoise, 0, seed), kGyro, kNoise, &reason);
     ASSERT_TRUE(pose) << reason;
-    const Vector3d error = SO3Log(pose->R_C1_C0 * kViews.R_C1_C0.conjugate());
+    const Vector3d error = SO3Log(pose->R_C1_C0 * kTwoViews.R_C1_C0.conjugate());
     normalized += error.dot(pose->rotation_information * error) / 3 / kRuns;
   }
   // Cauchy weights make the estimated information slightly too small.
@@ -87,7 +87,7 @@ TEST(RelativePoseTest, StatedInformationMatchesTheSpread) {
 }
 
 TEST(RelativePoseTest, PureRotationStillGivesTheRotation) {
-  const TwoViews turning{kViews.R_C1_C0, Vector3d::Zero()};
+  const TwoViews turning{kTwoViews.R_C1_C0, Vector3d::Zero()};
   std::string reason;
   const auto pose =
       EstimateRelativePose(turning.Observe(120, kNoise, 0, 1), kGyro, kNoise, &reason);
@@ -101,27 +101,27 @@ TEST(RelativePoseTest, GyroResolvesThePlanarAmbiguity) {
   int right = 0;
   for (int seed = 1; seed <= kRuns; ++seed) {
     std::string reason;
-    const auto pose = EstimateRelativePose(kViews.Observe(120, kNoise, 0, seed, /*planar=*/true),
+    const auto pose = EstimateRelativePose(kTwoViews.Observe(120, kNoise, 0, seed, /*planar=*/true),
                                            kGyro, kNoise, &reason);
     ASSERT_TRUE(pose) << reason;
-    right += pose->R_C1_C0.angularDistance(kViews.R_C1_C0) < 0.03;
+    right += pose->R_C1_C0.angularDistance(kTwoViews.R_C1_C0) < 0.03;
   }
   EXPECT_EQ(right, kRuns);
 }
 
 TEST(RelativePoseTest, RejectsFewOrUnrelatedPointsWithReason) {
   std::string reason;
-  EXPECT_FALSE(EstimateRelativePose(kViews.Observe(14, 0, 0, 1), kGyro, kNoise, &reason));
+  EXPECT_FALSE(EstimateRelativePose(kTwoViews.Observe(14, 0, 0, 1), kGyro, kNoise, &reason));
   EXPECT_THAT(reason, HasSubstr("14 of 15"));
-  EXPECT_FALSE(EstimateRelativePose(kViews.Observe(100, 0.2, 1.0, 1), kGyro, kNoise, &reason));
+  EXPECT_FALSE(EstimateRelativePose(kTwoViews.Observe(100, 0.2, 1.0, 1), kGyro, kNoise, &reason));
   EXPECT_THAT(reason, HasSubstr("inliers"));
 }
 
 TEST(RelativePoseTest, ParallaxIgnoresRotation) {
-  const auto points = TwoViews{kViews.R_C1_C0, Vector3d::Zero()}.Observe(50, 0, 0, 1);
-  EXPECT_NEAR(MedianParallax(points, kViews.R_C1_C0), 0, 1e-12);
+  const auto points = TwoViews{kTwoViews.R_C1_C0, Vector3d::Zero()}.Observe(50, 0, 0, 1);
+  EXPECT_NEAR(MedianParallax(points, kTwoViews.R_C1_C0), 0, 1e-12);
   EXPECT_GT(MedianParallax(points, Quaterniond::Identity()), 0.05);
-  EXPECT_EQ(MedianParallax({}, kViews.R_C1_C0), 0);
+  EXPECT_EQ(MedianParallax({}, kTwoViews.R_C1_C0), 0);
 }
 
 }  // namespace

@@ -14,18 +14,18 @@ using Eigen::Quaterniond;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kViews = 6;
+constexpr int kStereoViews = 6;
 constexpr double kPixel = 1 / 460.0;
 
 // A stereo camera that moves by 2 cm per view before a cloud of points, of which each is observed
 // by four views in a row and by the second camera in the first of these.
-struct Scene {
-  Scene(double noise, double outlier_ratio, double step = 0.02) {
+struct StereoScene {
+  StereoScene(double noise, double outlier_ratio, double step = 0.02) {
     simulator::Random random(1);
-    for (int i = 0; i < kViews; ++i) {
+    for (int i = 0; i < kStereoViews; ++i) {
       T_W_C.push_back({SO3Exp({0.01 * i, -0.03 * i, 0.02 * i}), step * i * Vector3d(0.5, 0.2, 1)});
     }
-    for (int first = 0; first < kViews; ++first) {
+    for (int first = 0; first < kStereoViews; ++first) {
       for (int k = 0; k < 40; ++k) AddTrack(first, noise, outlier_ratio, &random);
     }
   }
@@ -39,7 +39,7 @@ struct Scene {
     };
     Track track;
     track.id = static_cast<int64_t>(tracks.size());
-    for (int view = first; view < std::min(first + 4, kViews); ++view) {
+    for (int view = first; view < std::min(first + 4, kStereoViews); ++view) {
       track.observations.push_back({view, seen_from(T_W_C[view])});
     }
     track.observations.front().right = seen_from(T_W_C[first] * T_C_C1);
@@ -52,8 +52,8 @@ struct Scene {
   // Rotations that are wrong by up to a degree, as a gyroscope with a bias has them.
   std::vector<Quaterniond> WrongRotations() const {
     std::vector<Quaterniond> rotations;
-    rotations.reserve(kViews);
-    for (int i = 0; i < kViews; ++i) {
+    rotations.reserve(kStereoViews);
+    for (int i = 0; i < kStereoViews; ++i) {
       rotations.push_back(T_W_C[i].rotation * SO3Exp(Vector3d(0.003, -0.002, 0.001) * i));
     }
     return rotations;
@@ -66,7 +66,7 @@ struct Scene {
   // The greatest error of a view's position relative to the first view's.
   double PositionError(const StereoStructure& structure) const {
     double greatest = 0;
-    for (int i = 1; i < kViews; ++i) {
+    for (int i = 1; i < kStereoViews; ++i) {
       const Rigid3d found = structure.T_G_C[0].Inverse() * structure.T_G_C[i];
       const Rigid3d truth = T_W_C[0].Inverse() * T_W_C[i];
       greatest = std::max(greatest, (found.translation - truth.translation).norm());
@@ -82,21 +82,21 @@ struct Scene {
 };
 
 TEST(StereoStructure, IsExactWithoutNoise) {
-  Scene scene(/*noise=*/0, /*outlier_ratio=*/0);
+  StereoScene scene(/*noise=*/0, /*outlier_ratio=*/0);
   const auto structure = scene.Reconstruct();
   ASSERT_TRUE(structure) << scene.reason;
   EXPECT_LT(scene.PositionError(*structure), 1e-6);
 }
 
 TEST(StereoStructure, ToleratesNoiseAndWrongMatches) {
-  Scene scene(0.5 * kPixel, /*outlier_ratio=*/0.2);
+  StereoScene scene(0.5 * kPixel, /*outlier_ratio=*/0.2);
   const auto structure = scene.Reconstruct();
   ASSERT_TRUE(structure) << scene.reason;
   EXPECT_LT(scene.PositionError(*structure), 0.05);
 }
 
 TEST(StereoStructure, UsesMeasuredDepths) {
-  Scene scene(/*noise=*/0, /*outlier_ratio=*/0);
+  StereoScene scene(/*noise=*/0, /*outlier_ratio=*/0);
   for (Track& track : scene.tracks) {
     ViewObservation& first = track.observations.front();
     const auto p_C = TriangulatePoint({{Rigid3d(), first.xy}, {scene.T_C_C1, *first.right}}, 0);
@@ -109,14 +109,14 @@ TEST(StereoStructure, UsesMeasuredDepths) {
 }
 
 TEST(StereoStructure, NeedsNoMotion) {
-  Scene scene(0.5 * kPixel, 0, /*step=*/0);
+  StereoScene scene(0.5 * kPixel, 0, /*step=*/0);
   const auto structure = scene.Reconstruct();
   ASSERT_TRUE(structure) << scene.reason;
   EXPECT_LT(scene.PositionError(*structure), 0.01);
 }
 
 TEST(StereoStructure, ReportsTooFewPointsWithDepth) {
-  Scene scene(0, 0);
+  StereoScene scene(0, 0);
   for (Track& track : scene.tracks) {
     if (track.id % 8 != 0) track.observations.front().right.reset();
   }

@@ -12,7 +12,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kViews = 11;
+constexpr int kBundleViews = 11;
 constexpr int kImagesPerView = 5;
 constexpr double kMinAngle = 0.01;  // between the rays of a usable point [rad]
 
@@ -34,7 +34,7 @@ struct Problem {
                simulation.point_noise_px / focal_length, flight.sensor.accel_bias_deviation};
     std::vector<const PointFrame*> views;
     std::vector<ImuSample> imu;
-    for (int i = 0; i <= kImagesPerView * (kViews - 1); ++i) {
+    for (int i = 0; i <= kImagesPerView * (kBundleViews - 1); ++i) {
       if (i > 0) JoinImu(flight.frames[i].imu, &imu);
       if (i % kImagesPerView != 0) continue;
       if (i > 0) AddInterval(flight.sensor.imu_noise, imu);

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using simulator::Random;
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kOneDegree = M_PI / 180;
 constexpr double kFrameInterval = 0.1;  // [s]
 
 Vector3d Horizontal(double heading) { return {std::cos(heading), std::sin(heading), 0}; }
@@ -102,9 +102,9 @@ TEST(ManhattanFrame, IsFoundAmongNoiseAndOutliers) {
     for (uint64_t seed = 1; seed <= 20; ++seed) {
       const double heading = Random(seed).Uniform(-M_PI, M_PI);
       ManhattanFrame frame;
-      LineStream(seed, kDegree).Feed(15, Built(heading, outliers), &frame);
+      LineStream(seed, kOneDegree).Feed(15, Built(heading, outliers), &frame);
       ASSERT_EQ(frame.state(), ManhattanState::kLocked) << "outliers " << outliers;
-      EXPECT_LT(HeadingError(frame, heading), 0.6 * kDegree);
+      EXPECT_LT(HeadingError(frame, heading), 0.6 * kOneDegree);
       EXPECT_NEAR(((*frame.R_W_M()) * Vector3d::UnitZ()).z(), 1, 1e-12);
     }
   }
@@ -116,34 +116,34 @@ TEST(ManhattanFrame, IsFoundAmongHorizontalOutliers) {
     const auto make = [](Random* random) {
       return random->Uniform() < 0.4 ? AnyHorizontal(random) : Along(0.3, random);
     };
-    LineStream(seed, kDegree).Feed(15, make, &frame);
+    LineStream(seed, kOneDegree).Feed(15, make, &frame);
     ASSERT_EQ(frame.state(), ManhattanState::kLocked);
-    EXPECT_LT(HeadingError(frame, 0.3), 0.6 * kDegree);
+    EXPECT_LT(HeadingError(frame, 0.3), 0.6 * kOneDegree);
   }
 }
 
 TEST(ManhattanFrame, IsFoundWhereTheHeadingWraps) {
-  for (const double heading : {-45 * kDegree, 45 * kDegree, 44.9 * kDegree, 135 * kDegree}) {
+  for (const double heading : {-45 * kOneDegree, 45 * kOneDegree, 44.9 * kOneDegree, 135 * kOneDegree}) {
     ManhattanFrame frame;
-    LineStream(3, kDegree).Feed(15, Built(heading, 0.2), &frame);
+    LineStream(3, kOneDegree).Feed(15, Built(heading, 0.2), &frame);
     ASSERT_EQ(frame.state(), ManhattanState::kLocked);
-    EXPECT_LT(HeadingError(frame, heading), 0.6 * kDegree);
+    EXPECT_LT(HeadingError(frame, heading), 0.6 * kOneDegree);
   }
 }
 
 TEST(ManhattanFrame, IsFoundFromParallelLines) {
   ManhattanFrame frame;
-  LineStream(1, kDegree)
+  LineStream(1, kOneDegree)
       .Feed(
           15, [](Random*) { return Horizontal(0.4); }, &frame);
   ASSERT_EQ(frame.state(), ManhattanState::kLocked);
-  EXPECT_LT(HeadingError(frame, 0.4), 0.5 * kDegree);
+  EXPECT_LT(HeadingError(frame, 0.4), 0.5 * kOneDegree);
 }
 
 TEST(ManhattanFrame, StaysAbsentAmongRandomDirections) {
   for (uint64_t seed = 1; seed <= 1000; ++seed) {
     ManhattanFrame frame;
-    LineStream(seed, kDegree).Feed(20, &AnyDirection, &frame);
+    LineStream(seed, kOneDegree).Feed(20, &AnyDirection, &frame);
     ASSERT_FALSE(frame.R_W_M()) << "seed " << seed;
   }
 }
@@ -152,14 +152,14 @@ TEST(ManhattanFrame, StaysAbsentAmongRandomDirections) {
 TEST(ManhattanFrame, StaysAbsentAmongRandomHeadings) {
   for (uint64_t seed = 1; seed <= 1000; ++seed) {
     ManhattanFrame frame;
-    LineStream(seed, kDegree).Feed(20, &AnyHorizontal, &frame);
+    LineStream(seed, kOneDegree).Feed(20, &AnyHorizontal, &frame);
     ASSERT_FALSE(frame.R_W_M()) << "seed " << seed;
   }
 }
 
 TEST(ManhattanFrame, StaysAbsentAmongVerticalLines) {
   ManhattanFrame frame;
-  LineStream(1, kDegree)
+  LineStream(1, kOneDegree)
       .Feed(
           20, [](Random*) { return Vector3d(0, 0, -1); }, &frame);
   EXPECT_EQ(frame.state(), ManhattanState::kAbsent);
@@ -170,7 +170,7 @@ TEST(ManhattanFrame, NeedsSeveralLines) {
   ManhattanFrame frame;
   for (int i = 0; i < 200; ++i) {
     std::vector<LineDirection> lines;
-    for (int id = 0; id < 4; ++id) lines.push_back({id, Horizontal(0.2), 0.1 * kDegree});
+    for (int id = 0; id < 4; ++id) lines.push_back({id, Horizontal(0.2), 0.1 * kOneDegree});
     frame.Update(ToNanoseconds(0.1 * i), lines);
   }
   EXPECT_FALSE(frame.R_W_M());
@@ -178,9 +178,9 @@ TEST(ManhattanFrame, NeedsSeveralLines) {
 
 TEST(ManhattanFrame, IgnoresInaccurateLines) {
   ManhattanFrame frame;
-  LineStream(1, 5 * kDegree).Feed(20, Built(0.3, 0), &frame);
+  LineStream(1, 5 * kOneDegree).Feed(20, Built(0.3, 0), &frame);
   EXPECT_EQ(frame.support().total, 0);
-  EXPECT_EQ(frame.AxisOf({1, Vector3d::UnitZ(), 5 * kDegree}), LineAxis::kFree);
+  EXPECT_EQ(frame.AxisOf({1, Vector3d::UnitZ(), 5 * kOneDegree}), LineAxis::kFree);
 }
 
 TEST(ManhattanFrame, IsTheOneWithMoreSupport) {
@@ -189,15 +189,15 @@ TEST(ManhattanFrame, IsTheOneWithMoreSupport) {
     const auto make = [](Random* random) {
       return Along(random->Uniform() < 0.65 ? 0.1 : 0.5, random);
     };
-    LineStream(seed, kDegree).Feed(20, make, &frame);
+    LineStream(seed, kOneDegree).Feed(20, make, &frame);
     ASSERT_EQ(frame.state(), ManhattanState::kLocked);
-    EXPECT_LT(HeadingError(frame, 0.1), 0.6 * kDegree);
+    EXPECT_LT(HeadingError(frame, 0.1), 0.6 * kOneDegree);
   }
 }
 
 TEST(ManhattanFrame, IsACandidateFirst) {
   ManhattanFrame frame;
-  LineStream stream(1, kDegree);
+  LineStream stream(1, kOneDegree);
   bool was_candidate = false;
   for (int i = 0; i < 150 && frame.state() != ManhattanState::kLocked; ++i) {
     stream.Feed(0.1, Built(0.3, 0.2), &frame);
@@ -210,17 +210,17 @@ TEST(ManhattanFrame, IsACandidateFirst) {
 
 TEST(ManhattanFrame, DoesNotMoveOnceLocked) {
   ManhattanFrame frame;
-  LineStream stream(1, kDegree);
+  LineStream stream(1, kOneDegree);
   stream.Feed(15, Built(0.3, 0.2), &frame);
   const double locked = Yaw(*frame.R_W_M());
-  stream.Feed(20, Built(0.3, 0.2), &frame, /*yaw_rate=*/0.03 * kDegree);  // drifts by 0.6 deg
+  stream.Feed(20, Built(0.3, 0.2), &frame, /*yaw_rate=*/0.03 * kOneDegree);  // drifts by 0.6 deg
   ASSERT_TRUE(frame.R_W_M());
   EXPECT_EQ(Yaw(*frame.R_W_M()), locked);
 }
 
 TEST(ManhattanFrame, StaysWithoutLines) {
   ManhattanFrame frame;
-  LineStream stream(1, kDegree);
+  LineStream stream(1, kOneDegree);
   stream.Feed(15, Built(0.3, 0.2), &frame);
   stream.Feed(
       120, [](Random*) { return Vector3d::UnitZ(); }, &frame);
@@ -229,7 +229,7 @@ TEST(ManhattanFrame, StaysWithoutLines) {
 
 TEST(ManhattanFrame, StaysAmongRandomLines) {
   ManhattanFrame frame;
-  LineStream stream(1, kDegree);
+  LineStream stream(1, kOneDegree);
   stream.Feed(15, Built(0.3, 0.2), &frame);
   stream.Feed(60, &AnyHorizontal, &frame);
   EXPECT_EQ(frame.state(), ManhattanState::kLocked);
@@ -238,35 +238,35 @@ TEST(ManhattanFrame, StaysAmongRandomLines) {
 TEST(ManhattanFrame, IsRevokedAndFoundAgainAfterAHeadingChange) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     ManhattanFrame frame;
-    LineStream stream(seed, kDegree);
+    LineStream stream(seed, kOneDegree);
     stream.Feed(15, Built(0.3, 0.2), &frame);
     ASSERT_EQ(frame.state(), ManhattanState::kLocked);
     bool was_revoked = false;
     for (int i = 0; i < 600; ++i) {  // rotates by 6 deg
-      stream.Feed(0.1, Built(0.3, 0.2), &frame, 0.1 * kDegree);
+      stream.Feed(0.1, Built(0.3, 0.2), &frame, 0.1 * kOneDegree);
       was_revoked |= frame.state() == ManhattanState::kRevoked;
     }
     EXPECT_TRUE(was_revoked) << "seed " << seed;
     stream.Feed(40, Built(0.3, 0.2), &frame);
     ASSERT_EQ(frame.state(), ManhattanState::kLocked);
-    EXPECT_LT(HeadingError(frame, 0.3 + stream.yaw()), 2 * kDegree);
+    EXPECT_LT(HeadingError(frame, 0.3 + stream.yaw()), 2 * kOneDegree);
   }
 }
 
 TEST(ManhattanFrame, IsReplacedInABuildingOfAnotherHeading) {
   ManhattanFrame frame;
-  LineStream stream(1, kDegree);
+  LineStream stream(1, kOneDegree);
   stream.Feed(15, Built(0.1, 0.2), &frame);
   stream.Feed(100, Built(0.5, 0.2), &frame);
   ASSERT_EQ(frame.state(), ManhattanState::kLocked);
-  EXPECT_LT(HeadingError(frame, 0.5), 0.6 * kDegree);
+  EXPECT_LT(HeadingError(frame, 0.5), 0.6 * kOneDegree);
 }
 
 TEST(ManhattanFrame, NamesTheAxisOfALine) {
   ManhattanFrame frame;
   EXPECT_EQ(frame.AxisOf({1, Vector3d::UnitX(), 0}), LineAxis::kFree);
   EXPECT_EQ(frame.AxisOf({1, Vector3d::UnitZ(), 0}), LineAxis::kZ);
-  LineStream(1, 0.1 * kDegree).Feed(15, Built(0.3, 0.2), &frame);
+  LineStream(1, 0.1 * kOneDegree).Feed(15, Built(0.3, 0.2), &frame);
   ASSERT_EQ(frame.state(), ManhattanState::kLocked);
   const Eigen::Quaterniond R_W_M = *frame.R_W_M();
   EXPECT_EQ(frame.AxisOf({1, R_W_M * Vector3d::UnitX(), 0}), LineAxis::kX);
@@ -279,9 +279,9 @@ TEST(ManhattanFrame, NamesTheAxisOfALine) {
 
 TEST(ManhattanFrame, AllowsForTheUncertaintyOfALine) {
   const ManhattanFrame frame;
-  const Vector3d tilted(std::sin(3.5 * kDegree), 0, std::cos(3.5 * kDegree));
-  EXPECT_EQ(frame.AxisOf({1, tilted, 0.1 * kDegree}), LineAxis::kFree);
-  EXPECT_EQ(frame.AxisOf({1, tilted, 1.0 * kDegree}), LineAxis::kZ);
+  const Vector3d tilted(std::sin(3.5 * kOneDegree), 0, std::cos(3.5 * kOneDegree));
+  EXPECT_EQ(frame.AxisOf({1, tilted, 0.1 * kOneDegree}), LineAxis::kFree);
+  EXPECT_EQ(frame.AxisOf({1, tilted, 1.0 * kOneDegree}), LineAxis::kZ);
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFocalLength = 460;  // [px]
-constexpr double kNoise = 1 / kFocalLength;
+constexpr double kComparisonFocalLength = 460;  // [px]
+constexpr double kPixel = 1 / kComparisonFocalLength;
 
 LinePairGeometry Pair(double angle, double distance, double gap) {
   LinePairGeometry pair;
@@ -26,7 +26,7 @@ LinePairGeometry Pair(double angle, double distance, double gap) {
 }
 
 TEST(FindDifference, NamesTheFirstExceededLimit) {
-  const SameLineLimits limits(EstimatorConfig(), kFocalLength);
+  const SameLineLimits limits(EstimatorConfig(), kComparisonFocalLength);
   const double angle = limits.angle, distance = limits.distance;
   EXPECT_EQ(FindDifference(limits, Pair(angle, distance, distance)), LineDifference::kNone);
   EXPECT_EQ(FindDifference(limits, Pair(1.1 * angle, 2 * distance, 2 * distance)),
@@ -37,7 +37,7 @@ TEST(FindDifference, NamesTheFirstExceededLimit) {
 }
 
 TEST(FindDifference, AllowsForUncertainty) {
-  const SameLineLimits limits(EstimatorConfig(), kFocalLength);
+  const SameLineLimits limits(EstimatorConfig(), kComparisonFocalLength);
   LinePairGeometry pair = Pair(2 * limits.angle, 2 * limits.distance, 0);
   pair.angle_sigma = 0.67 * limits.angle;
   EXPECT_EQ(FindDifference(limits, pair), LineDifference::kDistance);
@@ -61,7 +61,7 @@ class SeeTest : public ::testing::Test {
                      (end_W_ - frame.state.position()).hnormalized()}};
       lines.AddFrame(seen);
     }
-    lines.Triangulate(window_, LineLimits(kNoise, /*max_length=*/10));
+    lines.Triangulate(window_, LineLimits(kPixel, /*max_length=*/10));
     line_ = lines.landmarks().at(1);
   }
 
@@ -72,7 +72,7 @@ class SeeTest : public ::testing::Test {
 
 TEST_F(SeeTest, ObservedPartIsRotatedIntoTheFrame) {
   const Eigen::Quaterniond R_F_W = SO3Exp({0.1, -0.4, 0.8});
-  const auto seen = See(window_, R_F_W, kNoise, line_);
+  const auto seen = See(window_, R_F_W, kPixel, line_);
   ASSERT_TRUE(seen);
   EXPECT_MATRIX_NEAR(seen->start_F, R_F_W * start_W_, 1e-5);
   EXPECT_MATRIX_NEAR(seen->end_F, R_F_W * end_W_, 1e-5);
@@ -89,7 +89,7 @@ TEST_F(SeeTest, DeviationIsProportionalToTheNoise) {
 
 TEST_F(SeeTest, FewObservationsHaveNoDeviation) {
   line_.views.pop_back();
-  const auto seen = See(window_, Eigen::Quaterniond::Identity(), kNoise, line_);
+  const auto seen = See(window_, Eigen::Quaterniond::Identity(), kPixel, line_);
   ASSERT_TRUE(seen);
   EXPECT_EQ(seen->place_sigma, 0);
   EXPECT_EQ(seen->direction_sigma, 0);

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kNoise = 1 / 460.0;
+constexpr double kMapNoise = 1 / 460.0;
 constexpr int64_t kPoint = 1, kLine = 2;
 const Vector3d kPoint_W(0.1, 0.2, 5);
 const Vector3d kStart_W(-1, 0.5, 5), kEnd_W(1, 0.6, 5);
@@ -42,7 +42,7 @@ class LocalMapTest : public ::testing::Test {
 
   void Triangulate() {
     map_.points.Triangulate(map_.window, /*min_angle=*/0.01);
-    map_.lines.Triangulate(map_.window, LineLimits(kNoise, /*max_length=*/10));
+    map_.lines.Triangulate(map_.window, LineLimits(kMapNoise, /*max_length=*/10));
   }
 
   // Throws if an observation is by a removed frame.
@@ -64,7 +64,7 @@ class LocalMapTest : public ::testing::Test {
 
   const LineLandmark& Line(int64_t id) const { return map_.lines.landmarks().at(id); }
 
-  LocalMap map_{LocalMapOptions(kNoise, /*remember_lines=*/true)};
+  LocalMap map_{LocalMapOptions(kMapNoise, /*remember_lines=*/true)};
 };
 
 TEST_F(LocalMapTest, DropsTheSecondNewestFrameWithItsObservations) {
@@ -105,7 +105,7 @@ TEST_F(LocalMapTest, ReportsLandmarksThatLeaveWithTheOldestFrame) {
 
 TEST_F(LocalMapTest, RemembersLinesThatLeaveUnlessToldNotTo) {
   for (const bool remember : {true, false}) {
-    map_ = LocalMap(LocalMapOptions(kNoise, remember));
+    map_ = LocalMap(LocalMapOptions(kMapNoise, remember));
     for (int i = 0; i < 4; ++i) AddFrame(i);
     Triangulate();
     map_.SlideOldest(/*stays_as_anchor=*/true);

@@ -11,9 +11,9 @@
 namespace plm_vins {
 namespace {
 
-const ImuNoise kNoise = {1e-3, 1e-2, 1e-5, 1e-3};
+const ImuNoise kImuNoise = {1e-3, 1e-2, 1e-5, 1e-3};
 constexpr double kInterval = 0.05;  // [s]
-constexpr int kFrames = 5;          // in the window; the third one is the keyframe
+constexpr int kWindowFrames = 5;          // in the window; the third one is the keyframe
 constexpr PointMap::Fit kFits = {100, 0};
 
 // A window at standstill with exact readings.
@@ -21,7 +21,7 @@ class ImuAgreementTest : public ::testing::Test {
  protected:
   ImuAgreementTest() {
     window_.gravity_W = Eigen::Vector3d(0, 0, -9.81);
-    for (int i = 0; i < kFrames; ++i) Append();
+    for (int i = 0; i < kWindowFrames; ++i) Append();
   }
 
   void Append() {
@@ -29,7 +29,7 @@ class ImuAgreementTest : public ::testing::Test {
     const int64_t end_ns = window_.frames.empty() ? 0 : window_.newest().state.t_ns + Interval();
     frame.state.t_ns = end_ns;
     if (!window_.frames.empty()) {
-      frame.motion_since_previous = std::make_shared<Preintegration>(kNoise, ImuBias());
+      frame.motion_since_previous = std::make_shared<Preintegration>(kImuNoise, ImuBias());
       constexpr int kSamples = 10;
       for (int i = kSamples; i >= 0; --i) {
         frame.motion_since_previous->Append({end_ns - i * Interval() / kSamples,
@@ -61,15 +61,15 @@ class ImuAgreementTest : public ::testing::Test {
 };
 
 TEST_F(ImuAgreementTest, TrustsAConsistentImu) {
-  EXPECT_LT(ChiSquare(kFrames - 1), 1e-6);
+  EXPECT_LT(ChiSquare(kWindowFrames - 1), 1e-6);
   EXPECT_TRUE(agreement_.IsUndoubted(window_, Keyframe()));
 }
 
 TEST_F(ImuAgreementTest, RaisesTheNoiseOfAnIntervalAfterTheKeyframe) {
-  Contradict(kFrames - 1, 1.4);
-  ASSERT_NEAR(ChiSquare(kFrames - 1), 1.4, 0.01);
+  Contradict(kWindowFrames - 1, 1.4);
+  ASSERT_NEAR(ChiSquare(kWindowFrames - 1), 1.4, 0.01);
   EXPECT_TRUE(agreement_.IsUndoubted(window_, Keyframe()));
-  Contradict(kFrames - 1, 1.6);
+  Contradict(kWindowFrames - 1, 1.6);
   EXPECT_FALSE(agreement_.IsUndoubted(window_, Keyframe()));
 }
 
@@ -100,11 +100,11 @@ TEST_F(ImuAgreementTest, ContradictionRaisesTheNoiseAtOnce) {
 }
 
 TEST_F(ImuAgreementTest, DoubtedIntervalIsNoisierAndAllowsBiasSteps) {
-  Contradict(kFrames - 1, 60);
+  Contradict(kWindowFrames - 1, 60);
   Preintegration& motion = *window_.newest().motion_since_previous;
-  DoubtInterval(Scaled(kNoise, 30), &motion);
+  DoubtInterval(Scaled(kImuNoise, 30), &motion);
   EXPECT_TRUE(motion.HasBiasStep());
-  EXPECT_LT(ChiSquare(kFrames - 1), 60.0 / 30 + 0.1);
+  EXPECT_LT(ChiSquare(kWindowFrames - 1), 60.0 / 30 + 0.1);
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ COMMON_LAYERS = {
     "stopwatch.h": "",
     "geometry": "",
     "camera": "",
-    "imu": "forgetting_sum.h format.h measurements.h",
-    "features": "measurements.h",
     "streams": "format.h measurements.h median.h",
+    "imu": "forgetting_sum.h format.h measurements.h streams",
+    "features": "measurements.h",
     "io": "format.h measurements.h",
     "config": "measurements.h geometry camera imu",
 }

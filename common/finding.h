@@ -9,7 +9,7 @@
 
 namespace plm_vins {
 
-// What a check has found: the topic or key, what is wrong with it, and what to do.
+// The fault that a check has found: the topic or key, what is wrong with it, and what to do.
 struct Finding {
   std::string text;         // empty if there was none
   bool is_present = false;  // false: it has passed; the text says until when it lasted

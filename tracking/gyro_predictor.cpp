@@ -6,28 +6,24 @@
 
 #include "common/geometry/so3.h"
 #include "common/imu/imu_interpolation.h"
-#include "common/imu/imu_range.h"
 
 namespace plm_vins {
 namespace {
 
 constexpr int64_t kHistory_ns = 5'000'000'000;  // exceeds the time that any image waits
+constexpr int64_t kMaxGap_ns = 100'000'000;     // the rotation in a longer one is unknown
+constexpr int kPatience = 100;                  // of the door [samples]
 
 }  // namespace
 
 GyroPredictor::GyroPredictor(const Rigid3d& T_B_C, double td, const ImuSensor& imu)
-    : R_B_C_(T_B_C.rotation), td_ns_(ToNanoseconds(td)), gate_(imu), order_(kGyroJumps) {}
+    : R_B_C_(T_B_C.rotation), td_ns_(ToNanoseconds(td)), door_(imu, kPatience) {}
 
 void GyroPredictor::AddImu(const ImuSample& sample) {
-  if (!IsPlausible(sample)) return;
-  const StampVerdict verdict = order_.Add(sample.t_ns);
-  if (!StampOrder::IsAccepted(verdict)) return;
-  if (verdict == StampVerdict::kRestarts) {
-    samples_.clear();
-    gate_.Clear();
-  }
-  for (const ImuSample& decided : gate_.Add(sample)) samples_.push_back(decided);
-  while (!samples_.empty() && samples_.front().t_ns < sample.t_ns - kHistory_ns) {
+  const AdmittedImu admitted = door_.Add(sample);
+  if (admitted.clock != ClockChange::kNone) samples_.clear();
+  samples_.insert(samples_.end(), admitted.samples.begin(), admitted.samples.end());
+  while (!samples_.empty() && samples_.front().t_ns < samples_.back().t_ns - kHistory_ns) {
     samples_.pop_front();
   }
 }
@@ -47,7 +43,7 @@ std::optional<Eigen::Quaterniond> GyroPredictor::Rotation(int64_t t0_ns, int64_t
   for (; right != samples_.end() && std::prev(right)->t_ns < end; ++right) {
     const ImuSample& a = *std::prev(right);
     const ImuSample& b = *right;
-    if (b.t_ns - a.t_ns > kGyroJumps.max_step_ns) return std::nullopt;  // unknown rotation
+    if (b.t_ns - a.t_ns > kMaxGap_ns) return std::nullopt;
     const int64_t from = std::max(a.t_ns, begin);
     const int64_t to = std::min(b.t_ns, end);
     const Eigen::Vector3d rate = InterpolateImu(a, b, from + (to - from) / 2).gyro;

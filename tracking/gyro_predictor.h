@@ -7,16 +7,13 @@
 #include <optional>
 
 #include "common/geometry/rigid3.h"
-#include "common/imu/imu_gate.h"
+#include "common/imu/imu_door.h"
 #include "common/measurements.h"
-#include "common/streams/stamp_order.h"
 
 namespace plm_vins {
 
 // Integrates the gyroscope to the camera's rotation between two images, which predicts the motion
-// of features. Keeps a bounded history. Ignores samples that are not finite or out of range, out of
-// order, or the first after a forward jump in time, and replaces outliers (ImuGate). A permanent
-// backward jump of the timestamps clears the history.
+// of features. Keeps a bounded history, which is cleared if the clock was set (ImuDoor).
 class GyroPredictor {
  public:
   // `td` satisfies t_imu = t_image + td [s].
@@ -35,8 +32,7 @@ class GyroPredictor {
   Eigen::Quaterniond R_B_C_;
   int64_t td_ns_;
   std::deque<ImuSample> samples_;
-  ImuGate gate_;
-  StampOrder order_;  // judges the samples passed to the gate
+  ImuDoor door_;
 };
 
 }  // namespace plm_vins

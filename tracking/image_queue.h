@@ -11,7 +11,6 @@
 
 #include "common/config/config.h"
 #include "common/config/stereo_pairs.h"
-#include "common/imu/imu_bursts.h"
 #include "common/measurements.h"
 #include "common/streams/drop_counts.h"
 #include "common/streams/stamp_order.h"
@@ -71,7 +70,7 @@ class ImageQueue {
   explicit ImageQueue(const Config& config,
                       double max_wait = std::numeric_limits<double>::infinity());
 
-  void AddImu(const ImuSample& sample) { gyro_.AddImu(bursts_.Spread(sample)); }
+  void AddImu(const ImuSample& sample) { gyro_.AddImu(sample); }
 
   // Timestamps of a camera must increase. An image that goes back in time is dropped, unless enough
   // images follow it there: then a new recording begins. An image that jumps ahead is dropped,
@@ -114,7 +113,6 @@ class ImageQueue {
   SensorConfig sensor_;
   std::optional<int64_t> max_wait_ns_;  // nullopt: unlimited
   bool uses_gyro_;
-  ImuBursts bursts_;
   GyroPredictor gyro_;
   RateLimiter rate_limiter_;
   ImageCounts counts_;

@@ -7,10 +7,10 @@
 
 #include "common/append.h"
 #include "common/format.h"
+#include "common/imu/imu_gap.h"
 #include "common/recent_time.h"
 #include "common/streams/stream_rhythm.h"
 #include "vins_estimator/estimator.h"
-#include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/imu/imu_noise_meter.h"
 #include "vins_estimator/initialization/rotation_check.h"
 #include "vins_estimator/input/repeated_image_detector.h"
@@ -20,6 +20,8 @@
 
 namespace plm_vins {
 namespace {
+
+constexpr char kJumpedBack[] = "timestamps jumped back";
 
 // Returns a lower bound on the speed, three standard deviations below the estimate [m/s].
 double LeastSpeed(const EstimatorOutput& output) {
@@ -73,19 +75,25 @@ EstimationStage::EstimationStage(const Config& config, double max_wait)
 
 EstimationStage::~EstimationStage() = default;
 
+// If a clock was set, the estimate is unrelated to the new timestamps.
 void EstimationStage::AddImu(const ImuSample& sample) {
-  const ImuSample spread = input_check_.AddImu(sample);
-  Follow(sync_.AddImu(spread));
-  world_->imu_noise_meter.Add(spread);
-  world_->imu_rhythm.Add(spread.t_ns);
-  CheckInput(spread.t_ns);
+  input_check_.AddImu(sample);
+  const AdmittedImu admitted = sync_.AddImu(sample);
+  if (admitted.clock == ClockChange::kBack) StartOver(kJumpedBack);
+  if (admitted.clock == ClockChange::kForward)
+    StartOver("no IMU for more than a minute, or its clock jumped forward");
+  for (const ImuSample& next : admitted.samples) {
+    world_->imu_noise_meter.Add(next);
+    world_->imu_rhythm.Add(next.t_ns);
+  }
+  CheckInput(sample.t_ns);
 }
 
 void EstimationStage::AddPoints(PointFrame frame) {
   door_.Admit(&frame);
   const int64_t t_ns = frame.t_ns;
   input_check_.AddImage(t_ns);
-  Follow(sync_.AddPoints(std::move(frame)));
+  if (sync_.AddPoints(std::move(frame))) StartOver(kJumpedBack);
   world_->image_rhythm.Add(t_ns);
   CheckInput(t_ns);
 }
@@ -171,7 +179,7 @@ void EstimationStage::CheckInput(int64_t t_ns) {
 }
 
 std::string EstimationStage::FindInputFault() const {
-  const std::string fault = input_check_.Finding();
+  const std::string fault = input_check_.Finding(sync_.imu_door().bursts());
   if (!fault.empty()) return fault;
   if (!world_->rotation_check.finding().empty()) return world_->rotation_check.finding();
   if (!estimator_->SeesUnfeltMotion()) return "";
@@ -201,12 +209,6 @@ std::string EstimationStage::CompanionFault() const {
 void EstimationStage::Reset(const std::string& reason) {
   sync_.Clear();
   StartOver(reason);
-}
-
-void EstimationStage::Follow(ImuStream::Clock clock) {
-  if (clock == ImuStream::Clock::kSetBack) StartOver("timestamps jumped back");
-  if (clock == ImuStream::Clock::kSetOn)
-    StartOver("no IMU for more than a minute, or its clock jumped forward");
 }
 
 // If there was no output since the last start, there is no world frame to end and to announce.

@@ -91,8 +91,6 @@ class EstimationStage {
   // Looks for what is wrong with the input, at every tenth call only.
   void CheckInput(int64_t t_ns);
   std::string FindInputFault() const;
-  // Reinitializes if the clock was set: the estimate is unrelated to the new timestamps.
-  void Follow(ImuStream::Clock clock);
   void StartOver(const std::string& reason);
   // Returns the configured noise, or the noise that the samples show if that is greater.
   ImuNoise NoiseOfSamples() const;

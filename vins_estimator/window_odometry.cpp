@@ -31,11 +31,6 @@ constexpr double kDoubtfulShare = 0.1;
 // Widens the robust losses after blindness: outliers of about ten pixels keep almost full weight.
 constexpr double kWidened = 30;
 
-std::optional<Matrix6d> PoseOf(const std::optional<Matrix15d>& covariance) {
-  if (!covariance) return std::nullopt;
-  return covariance->topLeftCorner<6, 6>();
-}
-
 }  // namespace
 
 WindowOdometry::WindowOdometry(const Config& config, const EstimatorOptions& options)
@@ -92,7 +87,8 @@ WindowOdometry::Tracked WindowOdometry::Track(
     const std::optional<StandstillDetector::Standstill>& standstill, int features_observed) {
   LocalMap& map = estimate_.map;
   bool keep_second_newest = IsKeyframe(options_->keyframes, map.window, map.points);
-  const FrameState predicted = AddFrame(measurement);
+  EstimateMonitor::Evidence evidence;
+  evidence.predicted = AddFrame(measurement);
   map.window.SetStillSince(StillSince(standstill));
   keep_second_newest |= EndsStandstill(options_->keyframes, map.window);
   if (keep_second_newest) keyframe_ = {map.window.second_newest().state.t_ns};
@@ -101,10 +97,15 @@ WindowOdometry::Tracked WindowOdometry::Track(
   tracked.newest = map.window.newest().state;
   tracked.covariance = step.solution.covariance;
   depth_evidence_.Add(tracked.newest.position(), tracked.covariance);
-  tracked.failure = estimate_monitor_.Add(
-      {step.solution.exists, map.window.newest().stationary, predicted, tracked.newest,
-       PoseOf(tracked.covariance), features_observed, step.counts,
-       map.window.td - config_->sensor.td, map.window.LongestImuInterval()});
+  evidence.solved = step.solution.exists;
+  evidence.stationary = map.window.newest().stationary;
+  evidence.newest = tracked.newest;
+  evidence.pose_covariance = PoseOf(tracked.covariance);
+  evidence.features_observed = features_observed;
+  evidence.counts = step.counts;
+  evidence.time_offset_change = map.window.td - config_->sensor.td;
+  evidence.longest_imu_gap = map.window.LongestImuInterval();
+  tracked.failure = estimate_monitor_.Add(evidence);
   tracked.output = tracked.failure ? Report(step) : Describe(step);
   if (tracked.failure) return tracked;
   if (keep_second_newest) tracked.residuals = MiddleResiduals();
@@ -310,8 +311,7 @@ std::vector<PixelResidual> WindowOdometry::MiddleResiduals() const {
 }
 
 PointMap::Fit WindowOdometry::FitOfNewest(int64_t keyframe_ns) const {
-  const LocalMap& map = estimate_.map;
-  return map.points.FitOfNewest(map.window, keyframe_ns, options_->max_reprojection_error);
+  return estimate_.map.points.FitOfNewest(window(), keyframe_ns, options_->max_reprojection_error);
 }
 
 // Removes outliers and updates the noise of features and IMU. Counts the landmarks before that.

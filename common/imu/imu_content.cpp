@@ -2,6 +2,7 @@
 #include "common/imu/imu_content.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "common/forgetting_sum.h"
 #include "common/imu/imu_range.h"
@@ -9,88 +10,19 @@
 namespace plm_vins {
 namespace {
 
-// Properties of a sample. A sensor is present if its reading is finite and not zero; the others
-// refer to the norm of the specific force, or of the angular rate.
-enum Property {
-  kAny,
-  kHasGyro,
-  kHasAccel,
-  kHasBoth,
-  kNearOneG,
-  kNearThousandMg,
-  kNearGravity,
-  kFarBelowGravity,
-  kBeyondRange,  // more than any IMU can read
-  kFastTurn,     // blurs every image
-};
-
 constexpr int64_t kMinSamples = 200;
 constexpr int64_t kMinSpan_ns = 2'000'000'000;
 constexpr double kMemory = 10;         // [s]
 constexpr double kMaxForgotten = 0.1;  // by a gap
 
-// Shares of the samples that count as most, many, few and none.
-constexpr double kMost = 0.8, kMany = 0.3, kFew = 0.05, kNone = 0.01;
+constexpr double kTolerance = 0.3;  // relative, of a norm near that of gravity
+constexpr double kFarBelow = 0.3;   // largest share of gravity that is far below it
+constexpr double kFastTurn = 4.0;  // [rad/s]; agile flights exceed it in a few samples of a hundred
 
-constexpr double kTolerance = 0.3;   // relative, of a norm near that of gravity
-constexpr double kFarBelow = 0.3;    // largest share of gravity that is far below it
-constexpr double kFastTurnRate = 4;  // [rad/s]; agile flights exceed it in a few percent of samples
-
-// Shares of the samples, or of those with an accelerometer or gyro.
-struct Shares {
-  double operator[](Property property) const { return Share(property, kAny); }
-  double OfAccel(Property property) const { return Share(property, kHasAccel); }
-  double OfGyro(Property property) const { return Share(property, kHasGyro); }
-  // Returns whether the specific force is mostly of this kind, and seldom near gravity in m/s^2.
-  bool MostForcesAre(Property property) const {
-    return OfAccel(property) > kMost && OfAccel(kNearGravity) <= kMany;
-  }
-
-  const Eigen::Array<double, 10, 1>& numbers;
-  bool is_long;  // more than two seconds
-
- private:
-  double Share(Property part, Property whole) const {
-    return numbers[whole] > 0 ? numbers[part] / numbers[whole] : 0;
-  }
-};
-
-struct Test {
-  bool (*fails)(const Shares& shares);
-  const char *before_topic, *after_topic;  // what is wrong, around the topic
-  const char* advice;
-};
-
-// The most serious one first.
-constexpr Test kTests[] = {
-    {[](const Shares& shares) { return shares[kHasGyro] < kNone && shares[kHasAccel] < kNone; },
-     "every sample on ",
-     " is zero: ", "the driver cannot read the IMU; check its log and the connection"},
-    {[](const Shares& shares) {
-       return shares[kHasBoth] <= kFew && std::min(shares[kHasGyro], shares[kHasAccel]) > kFew;
-     },
-     "gyro and accelerometer readings alternate on ", ": ",
-     "unite them in one message (unite_imu_method of the driver)"},
-    {[](const Shares& shares) { return shares[kHasAccel] < kNone; },
-     "specific force is zero in every sample: is ", " the gyro's own topic? ",
-     "Unite both sensors (unite_imu_method of the driver)"},
-    // A gyroscope that is simulated without noise reads zero during standstill.
-    {[](const Shares& shares) { return shares[kHasGyro] < kNone && shares.is_long; },
-     "angular velocity is zero in every sample: is ", " the accelerometer's own topic? ",
-     "Unite both sensors (unite_imu_method of the driver)"},
-    {[](const Shares& shares) { return shares.MostForcesAre(kNearOneG); }, "specific force on ",
-     " seems to be in g: ", "multiply it by 9.81, to m/s^2"},
-    {[](const Shares& shares) { return shares.MostForcesAre(kNearThousandMg); },
-     "specific force on ", " seems to be in mg: ", "multiply it by 0.00981, to m/s^2"},
-    {[](const Shares& shares) { return shares.MostForcesAre(kBeyondRange); },
-     "specific force exceeds 500 m/s^2 in most samples: is ",
-     " in mm/s^2, or in counts of the sensor? ", "Convert it to m/s^2"},
-    {[](const Shares& shares) { return shares.MostForcesAre(kFarBelowGravity); },
-     "specific force on ",
-     " lacks gravity: ", "publish raw accelerometer readings, including gravity"},
-    {[](const Shares& shares) { return shares.OfGyro(kFastTurn) >= kMany && shares.is_long; },
-     "angular velocity exceeds 4 rad/s in many samples: is ", " in deg/s? ",
-     "Multiply it by pi/180, to rad/s"},
+struct Reading {
+  bool gyro = false, accel = false;  // not zero, and finite
+  double rate = 0, force = 0;        // norms, if so
+  double gravity = 0;
 };
 
 bool IsPresent(const Eigen::Vector3d& reading) {
@@ -101,6 +33,49 @@ bool IsNear(double value, double expected) {
   return value > (1 - kTolerance) * expected && value < (1 + kTolerance) * expected;
 }
 
+bool IsAny(const Reading&) { return true; }
+bool HasGyro(const Reading& reading) { return reading.gyro; }
+bool HasAccel(const Reading& reading) { return reading.accel; }
+
+// A test fails if more than a share of the samples to which it applies are wrong.
+struct Test {
+  bool (*applies)(const Reading& reading);
+  bool (*is_wrong)(const Reading& reading);
+  double share;
+  const char* text;  // with the topic, and what to do
+};
+
+// The most serious one first. A gyroscope that is simulated without noise reads zero during
+// standstill.
+constexpr Test kTests[] = {
+    {IsAny, [](const Reading& r) { return !r.gyro && !r.accel; }, 0.99,
+     "every sample on TOPIC is zero: the driver cannot read the IMU; check its log and the "
+     "connection"},
+    {IsAny, [](const Reading& r) { return !r.accel; }, 0.99,
+     "specific force is zero in every sample: is TOPIC the gyro's own topic? Unite both sensors "
+     "(unite_imu_method of the driver)"},
+    {IsAny, [](const Reading& r) { return !r.gyro; }, 0.99,
+     "angular velocity is zero in every sample: is TOPIC the accelerometer's own topic? Unite both "
+     "sensors (unite_imu_method of the driver)"},
+    {IsAny, [](const Reading& r) { return r.gyro != r.accel; }, 0.95,
+     "gyro and accelerometer readings alternate on TOPIC: unite them in one message "
+     "(unite_imu_method of the driver)"},
+    {HasAccel, [](const Reading& r) { return IsNear(r.force, 1); }, 0.8,
+     "specific force on TOPIC seems to be in g: multiply it by 9.81, to m/s^2"},
+    {HasAccel, [](const Reading& r) { return IsNear(r.force, 1000); }, 0.8,
+     "specific force on TOPIC seems to be in mg: multiply it by 0.00981, to m/s^2"},
+    {HasAccel, [](const Reading& r) { return r.force > kAnyImuRange.accel; }, 0.8,
+     "specific force exceeds 500 m/s^2 in most samples: is TOPIC in mm/s^2, or in counts of the "
+     "sensor? Convert it to m/s^2"},
+    {HasAccel, [](const Reading& r) { return r.force < kFarBelow * r.gravity; }, 0.8,
+     "specific force on TOPIC lacks gravity: publish raw accelerometer readings, including "
+     "gravity"},
+    {HasGyro, [](const Reading& r) { return r.rate > kFastTurn; }, 0.3,
+     "angular velocity exceeds 4 rad/s in many samples: is TOPIC in deg/s? Multiply it by pi/180, "
+     "to rad/s"},
+};
+static_assert(std::size(kTests) == ImuContent::kTestCount);
+
 }  // namespace
 
 void ImuContent::Add(const ImuSample& sample) {
@@ -108,28 +83,21 @@ void ImuContent::Add(const ImuSample& sample) {
   const double forgotten =
       std::clamp(ToSeconds(sample.t_ns - newest_ns_) / kMemory, 0.0, kMaxForgotten);
   newest_ns_ = std::max(newest_ns_, sample.t_ns);
-  Eigen::Array<double, 10, 1> has = Eigen::Array<double, 10, 1>::Zero();
-  has[kAny] = 1;
-  has[kHasGyro] = IsPresent(sample.gyro);
-  has[kHasAccel] = IsPresent(sample.accel);
-  has[kHasBoth] = has[kHasGyro] * has[kHasAccel];
-  if (has[kHasGyro] > 0) has[kFastTurn] = sample.gyro.norm() > kFastTurnRate;
-  if (has[kHasAccel] > 0) {
-    const double force = sample.accel.norm();
-    has[kNearOneG] = IsNear(force, 1);
-    has[kNearThousandMg] = IsNear(force, 1000);
-    has[kNearGravity] = IsNear(force, gravity_norm_);
-    has[kFarBelowGravity] = force < kFarBelow * gravity_norm_;
-    has[kBeyondRange] = force > kAnyImuRange.accel;
+  const Reading reading{IsPresent(sample.gyro), IsPresent(sample.accel), sample.gyro.norm(),
+                        sample.accel.norm(), gravity_norm_};
+  for (int i = 0; i < kTestCount; ++i) {
+    if (!kTests[i].applies(reading)) continue;
+    AddForgetting(forgotten, 1.0, &samples_of_[i]);
+    AddForgetting(forgotten, kTests[i].is_wrong(reading) ? 1.0 : 0.0, &wrong_[i]);
   }
-  AddForgetting(forgotten, has, &numbers_);
 }
 
 std::string ImuContent::Finding(const std::string& topic) const {
-  if (samples_ < kMinSamples) return "";
-  const Shares shares{numbers_, newest_ns_ - first_ns_ > kMinSpan_ns};
-  for (const Test& test : kTests) {
-    if (test.fails(shares)) return test.before_topic + topic + test.after_topic + test.advice;
+  if (samples_ < kMinSamples || newest_ns_ - first_ns_ < kMinSpan_ns) return "";
+  for (int i = 0; i < kTestCount; ++i) {
+    if (wrong_[i] <= kTests[i].share * samples_of_[i]) continue;
+    std::string text = kTests[i].text;
+    return text.replace(text.find("TOPIC"), 5, topic);
   }
   return "";
 }

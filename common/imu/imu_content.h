@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -14,6 +14,8 @@ namespace plm_vins {
 // seconds of all samples, before any is dropped or corrected.
 class ImuContent {
  public:
+  static constexpr int kTestCount = 9;
+
   explicit ImuContent(double gravity_norm) : gravity_norm_(gravity_norm) {}
 
   void Add(const ImuSample& sample);
@@ -26,8 +28,8 @@ class ImuContent {
   const double gravity_norm_;  // [m/s^2]
   int64_t samples_ = 0;
   int64_t first_ns_ = 0, newest_ns_ = 0;
-  // Exponentially forgetting numbers of samples by property, see imu_content.cpp.
-  Eigen::Array<double, 10, 1> numbers_ = Eigen::Array<double, 10, 1>::Zero();
+  // Exponentially forgetting numbers of samples that a test applies to, and of wrong ones.
+  std::array<double, kTestCount> samples_of_ = {}, wrong_ = {};
 };
 
 }  // namespace plm_vins

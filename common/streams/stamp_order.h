@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include "common/streams/backward_jump.h"
@@ -18,10 +17,6 @@ struct JumpPolicy {
 // The estimator is more patient than the trackers, so that these decide first.
 constexpr JumpPolicy kImageJumps = {10, 1'000'000'000};
 constexpr JumpPolicy kFeatureJumps = {10, 10'000'000'000};  // for trackers that do not check theirs
-constexpr JumpPolicy kGyroJumps = {100, 100'000'000};       // of trackers
-constexpr JumpPolicy kImuJumps = {1000, 60'000'000'000};    // no propagation bridges a longer step
-// Propagation at IMU rate ends with a restart: the estimator will start it again.
-constexpr JumpPolicy kPropagationJumps = {std::numeric_limits<int>::max(), 50'000'000};
 
 enum class StampVerdict { kFollows, kFollowsGap, kRestarts, kIsBack, kIsAhead };
 

@@ -2,7 +2,6 @@
 #include "vins_estimator/imu/imu_propagator.h"
 
 #include "common/imu/imu_interpolation.h"
-#include "common/imu/imu_range.h"
 #include "vins_estimator/imu/preintegration.h"
 
 namespace plm_vins {
@@ -13,7 +12,7 @@ const int64_t kHorizon_ns = ToNanoseconds(ImuPropagator::kHorizonSeconds);
 }  // namespace
 
 ImuPropagator::ImuPropagator(const Eigen::Vector3d& gravity_W, const ImuSensor& imu)
-    : gravity_W_(gravity_W), order_(kPropagationJumps), gate_(imu) {}
+    : gravity_W_(gravity_W), door_(imu) {}
 
 void ImuPropagator::Reset(const FrameState& state, int64_t t_imu_ns) {
   state_ = state;
@@ -25,11 +24,11 @@ void ImuPropagator::Reset(const FrameState& state, int64_t t_imu_ns) {
 }
 
 std::optional<FrameState> ImuPropagator::Add(const ImuSample& sample) {
-  if (!IsPlausible(sample)) return std::nullopt;
-  if (!StampOrder::IsAccepted(order_.Add(sample.t_ns))) return std::nullopt;
-  const std::vector<ImuSample> decided = gate_.Add(sample);
-  for (const ImuSample& next : decided) Take(next);
-  const bool reaches_sample = state_ && !decided.empty() && state_->t_ns == sample.t_ns;
+  const AdmittedImu admitted = door_.Add(sample);
+  if (admitted.clock != ClockChange::kNone) Forget();
+  for (const ImuSample& next : admitted.samples) Take(next);
+  const bool reaches_sample =
+      state_ && !admitted.samples.empty() && state_->t_ns == admitted.samples.back().t_ns;
   return reaches_sample ? state_ : std::nullopt;
 }
 
@@ -41,9 +40,12 @@ void ImuPropagator::Take(const ImuSample& sample) {
 }
 
 void ImuPropagator::Clear() {
+  door_.Clear();
+  Forget();
+}
+
+void ImuPropagator::Forget() {
   samples_.clear();
-  gate_.Clear();
-  order_.Clear();
   state_.reset();
 }
 

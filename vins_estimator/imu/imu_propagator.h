@@ -5,10 +5,8 @@
 #include <deque>
 #include <optional>
 
-#include "common/imu/imu_gate.h"
-#include "common/imu/imu_noise.h"
+#include "common/imu/imu_door.h"
 #include "common/measurements.h"
-#include "common/streams/stamp_order.h"
 #include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {
@@ -28,20 +26,23 @@ class ImuPropagator {
   void Reset(const FrameState& state, int64_t t_imu_ns);
 
   // Returns the state at this sample, with t_ns in IMU time. Returns nullopt if there is no state
-  // to start from (none yet, too old, or newer than the sample), or if the sample is implausible,
-  // out of order, the first after a jump in time, or still unconfirmed (ImuGate).
+  // to start from (none yet, too old, newer than the sample, or of another clock), or if the sample
+  // is unusable or still undecided (ImuDoor).
   std::optional<FrameState> Add(const ImuSample& sample);
 
   // Returns the angular velocity of B in B at the newest sample [rad/s]; there must be a state.
   Eigen::Vector3d AngularVelocity() const { return samples_.back().gyro - state_->gyro_bias(); }
 
   // Returns the time of the newest sample; nullopt if there is none.
-  std::optional<int64_t> newest_ns() const { return order_.newest_ns(); }
+  std::optional<int64_t> newest_ns() const {
+    return samples_.empty() ? std::nullopt : std::optional(samples_.back().t_ns);
+  }
 
   // Drops the state and the samples.
   void Clear();
 
  private:
+  void Forget();
   void Take(const ImuSample& sample);
   // Propagates state_ from its own time to that of samples_[index], the end of the interval.
   void Advance(size_t index);
@@ -50,8 +51,7 @@ class ImuPropagator {
   std::deque<ImuSample> samples_;    // ordered by time
   std::optional<FrameState> state_;  // t_ns in IMU time
   int64_t t_reset_ns_ = 0;
-  StampOrder order_;  // judges the samples passed to the gate
-  ImuGate gate_;
+  ImuDoor door_;
 };
 
 }  // namespace plm_vins

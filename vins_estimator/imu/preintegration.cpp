@@ -8,7 +8,7 @@
 #include <string>
 
 #include "common/geometry/so3.h"
-#include "vins_estimator/imu/imu_gap.h"
+#include "common/imu/imu_gap.h"
 
 namespace plm_vins {
 namespace {

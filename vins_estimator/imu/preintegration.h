@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "common/imu/imu_gap.h"
 #include "common/imu/imu_noise.h"
 #include "common/measurements.h"
-#include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/format.h"
-#include "vins_estimator/imu/imu_gap.h"
+#include "common/imu/imu_gap.h"
 #include "vins_estimator/initialization/frame_selection.h"
 #include "vins_estimator/initialization/motion_initializer.h"
 #include "vins_estimator/initialization/static_initializer.h"

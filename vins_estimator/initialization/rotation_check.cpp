@@ -6,7 +6,7 @@
 #include "common/camera/camera_model.h"
 #include "common/format.h"
 #include "common/geometry/so3.h"
-#include "vins_estimator/imu/imu_gap.h"
+#include "common/imu/imu_gap.h"
 #include "vins_estimator/initialization/rotation_pair.h"
 
 namespace plm_vins {

@@ -67,9 +67,13 @@ std::optional<RotationPair> MeasureRotationPair(const std::deque<FrameMeasuremen
   const double variance = pose->rotation_information.inverse().trace() / 3;
   // If all points coincide, the variance is a rounding error.
   if (!(std::isfinite(variance) && variance >= 0)) return std::nullopt;
-  return RotationPair{imu.delta_q(), pose->R_C1_C0.conjugate(), imu.duration(),
-                      std::sqrt(variance + kExcessDeviation * kExcessDeviation),
-                      RateChange(ends[1].imu)};
+  RotationPair pair;
+  pair.R_B0_B1 = imu.delta_q();
+  pair.R_C0_C1 = pose->R_C1_C0.conjugate();
+  pair.duration = imu.duration();
+  pair.deviation = std::sqrt(variance + kExcessDeviation * kExcessDeviation);
+  pair.rate_change = RateChange(ends[1].imu);
+  return pair;
 }
 
 }  // namespace plm_vins

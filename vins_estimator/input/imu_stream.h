@@ -5,49 +5,24 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "common/imu/imu_gate.h"
-#include "common/imu/imu_sensor.h"
+#include "common/imu/imu_door.h"
 #include "common/measurements.h"
-#include "common/streams/backward_jump.h"
-#include "vins_estimator/input/imu_memory.h"
 
 namespace plm_vins {
 
-// Counts of unusable IMU samples by cause, since construction.
-struct ImuStatistics {
-  int64_t imu_not_finite = 0;    // NaN or infinity
-  int64_t imu_implausible = 0;   // outside any sensor's range, all zero, or invalid timestamp
-  int64_t imu_replaced = 0;      // outliers among their neighbors (ImuGate)
-  int64_t imu_saturated = 0;     // at the limit of the sensor's range
-  int64_t imu_out_of_order = 0;  // timestamp not increasing, or far ahead and unconfirmed
-  int64_t imu_gaps = 0;          // intervals longer than the allowed gap, integrated across
-  std::string first_imu_gap;     // its length and time
-  int64_t imu_dropped_full = 0;  // queue full: oldest dropped
-};
-
-// Buffers IMU samples since the last cut and cuts them into contiguous intervals. Unusable samples
-// are dropped and counted. Each interval starts with the last sample of the previous one; between
-// the first and the last cut, no sample is lost or used twice.
-//
-// If timestamps go back permanently (kImuJumps: a bag played again, or a clock set
-// back) or jump ahead by more than a minute (a clock set ahead), everything except the statistics
-// is reset and a new sequence starts. Samples that are sent twice within a second have no such
-// effect.
+// Buffers the IMU samples that come through the door since the last cut, and cuts them into
+// contiguous intervals. Each interval starts with the last sample of the previous one; between the
+// first and the last cut, no sample is lost or used twice. If the clock was set, everything except
+// the statistics is reset and a new sequence starts.
 class ImuStream {
  public:
-  // Effect of a sample on the clock.
-  enum class Clock { kRunsOn, kSetBack, kSetOn };
+  // Beyond `max_samples`, the oldest samples are dropped.
+  ImuStream(const ImuSensor& sensor, int max_samples) : door_(sensor), max_samples_(max_samples) {}
 
-  // `max_gap` is the longest interval between samples that is not a gap [s]. Beyond `max_samples`,
-  // the oldest samples are dropped.
-  ImuStream(const ImuSensor& sensor, double max_gap, int max_samples);
-
-  // Adds a sample; unless kRunsOn is returned, the clock was set, and all earlier samples were
-  // dropped.
-  [[nodiscard]] Clock Add(const ImuSample& sample);
+  // Adds a sample as it arrives. Returns what came through the door.
+  AdmittedImu Add(const ImuSample& sample);
   // Drops samples and timestamps, keeps the statistics.
   void Clear();
 
@@ -67,33 +42,21 @@ class ImuStream {
   std::vector<ImuSample> Cut(int64_t t_ns);
   std::optional<int64_t> last_cut_ns() const { return last_cut_ns_; }
 
-  const ImuStatistics& statistics() const { return statistics_; }
+  const ImuDoor& door() const { return door_; }
+  int64_t dropped_full() const { return dropped_full_; }  // the oldest, as the queue was full
 
  private:
-  // Counts invalid samples.
-  bool IsReading(const ImuSample& sample);
-  bool LeavesGap(int64_t t_ns) const { return last_ns_ && IsGap(*last_ns_, t_ns); }
-  bool IsGap(int64_t begin_ns, int64_t end_ns) const;
-  // Decides on the sample after a gap, now that the next timestamp is known. Returns true if the
-  // clock was set ahead.
-  bool JudgeSampleAfterGap(int64_t next_ns);
-  void Take(const ImuSample& sample);
+  // Drops the queued samples.
+  void ClearSamples();
   void Queue(const ImuSample& sample);
   // Returns the index of the first sample at or after the time.
   size_t FirstNotBefore(int64_t t_ns) const;
 
-  const double max_gap_;  // [s]
+  ImuDoor door_;
   const int max_samples_;
-  ImuStatistics statistics_;
   std::deque<ImuSample> samples_;  // starts with the boundary of the last cut, if any
   std::optional<int64_t> last_cut_ns_;
-  ImuGate gate_;                    // samples that it accepted are in the queue
-  ImuMemory memory_;                // samples passed to the gate
-  std::optional<int64_t> last_ns_;  // newest sample passed to the gate
-  // A sample after a gap waits for the next one, so that one wrong timestamp does not invalidate
-  // the following samples.
-  std::optional<ImuSample> after_gap_;
-  BackwardJumpDetector jump_;
+  int64_t dropped_full_ = 0;
 };
 
 }  // namespace plm_vins

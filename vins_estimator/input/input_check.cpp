@@ -11,29 +11,29 @@ InputCheck::InputCheck(const SensorConfig& sensor)
       td_ns_(ToNanoseconds(sensor.td)),
       content_(sensor.gravity_norm) {}
 
-ImuSample InputCheck::AddImu(const ImuSample& sample) {
-  ImuSample spread = bursts_.Spread(sample);
+void InputCheck::AddImu(const ImuSample& sample) {
   content_.Add(sample);
-  imu_stamps_.Add(spread.t_ns);  // bursts repeat their stamps for another reason
+  imu_stamps_.Add(sample.t_ns);
   clocks_.AddImu(sample.t_ns);
-  return spread;
 }
 
 void InputCheck::AddImage(int64_t t_ns) { clocks_.AddImage(t_ns + td_ns_); }
 
-std::string InputCheck::Finding() const {
-  for (const std::string& finding : {imu_stamps_.Finding(imu_), clocks_.Finding(images_, imu_),
-                                     content_.Finding(imu_), BurstFinding()}) {
+// Bursts repeat their stamps, too, for another reason.
+std::string InputCheck::Finding(const ImuBursts& bursts) const {
+  for (const std::string& finding :
+       {bursts.size() == 0 ? imu_stamps_.Finding(imu_) : "", clocks_.Finding(images_, imu_),
+        content_.Finding(imu_), BurstFinding(bursts)}) {
     if (!finding.empty()) return finding;
   }
   return "";
 }
 
-std::string InputCheck::BurstFinding() const {
-  if (bursts_.size() == 0) return "";
+std::string InputCheck::BurstFinding(const ImuBursts& bursts) const {
+  if (bursts.size() == 0) return "";
   return "samples on " + imu_ +
-         Format(" come in bursts of %zu, stamped on arrival", bursts_.size()) +
-         Format(": their stamps are spread by %.1f ms each", 1e3 * bursts_.interval()) +
+         Format(" come in bursts of %zu, stamped on arrival", bursts.size()) +
+         Format(": their stamps are spread by %.1f ms each", 1e3 * bursts.interval()) +
          "; let the driver stamp each sample, or set estimate_td: 1";
 }
 

@@ -19,21 +19,20 @@ class InputCheck {
  public:
   explicit InputCheck(const SensorConfig& sensor);
 
-  // Must be called in order of arrival. Returns the sample with the timestamp to use, which is
-  // corrected if the sample belongs to a burst (ImuBursts).
-  ImuSample AddImu(const ImuSample& sample);
+  // Must be called in order of arrival, with samples as they arrive.
+  void AddImu(const ImuSample& sample);
   void AddImage(int64_t t_ns);
 
   // Returns the most serious finding, with the topic and what to do; empty if there is none.
-  std::string Finding() const;
+  // `bursts` are those of the samples so far.
+  std::string Finding(const ImuBursts& bursts) const;
 
  private:
-  std::string BurstFinding() const;
+  std::string BurstFinding(const ImuBursts& bursts) const;
 
   const std::string images_, imu_;  // keys and topics
   const int64_t td_ns_;
   ImuContent content_;
-  ImuBursts bursts_;
   ConstantStamp imu_stamps_;
   ClockCheck clocks_;
 };

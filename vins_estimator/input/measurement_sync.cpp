@@ -16,27 +16,27 @@ constexpr size_t kFewPoints = 10;  // too few to estimate the camera's motion
 
 MeasurementSync::MeasurementSync(const Options& options)
     : options_(options),
-      imu_(options.imu, options.max_imu_gap, options.max_imu_samples),
+      imu_(options.imu, options.max_imu_samples),
       lines_({options.expect_lines, options.max_line_lag, options.max_line_stall,
               options.line_patience, options.max_frames}),
       points_order_(kFeatureJumps) {}
 
-ImuStream::Clock MeasurementSync::AddImu(const ImuSample& sample) {
-  const ImuStream::Clock clock = imu_.Add(sample);
-  statistics_.jumps_back += clock == ImuStream::Clock::kSetBack;
-  statistics_.leaps_ahead += clock == ImuStream::Clock::kSetOn;
-  if (clock != ImuStream::Clock::kRunsOn) ClearFrames();
-  return clock;
+AdmittedImu MeasurementSync::AddImu(const ImuSample& sample) {
+  AdmittedImu admitted = imu_.Add(sample);
+  statistics_.jumps_back += admitted.clock == ClockChange::kBack;
+  statistics_.leaps_ahead += admitted.clock == ClockChange::kForward;
+  if (admitted.clock != ClockChange::kNone) ClearFrames();
+  return admitted;
 }
 
-ImuStream::Clock MeasurementSync::AddPoints(PointFrame frame) {
+bool MeasurementSync::AddPoints(PointFrame frame) {
   ++statistics_.frames;
   const StampVerdict verdict = points_order_.Add(frame.t_ns);
   const bool restarts = verdict == StampVerdict::kRestarts;
   statistics_.frames_out_of_order += verdict == StampVerdict::kIsBack || restarts;
   statistics_.frames_ahead_of_time += verdict == StampVerdict::kIsAhead;
   statistics_.jumps_back += restarts;
-  if (!StampOrder::IsAccepted(verdict)) return ImuStream::Clock::kRunsOn;
+  if (!StampOrder::IsAccepted(verdict)) return false;
   if (restarts) {
     Clear();
     points_order_.Add(frame.t_ns);
@@ -47,7 +47,7 @@ ImuStream::Clock MeasurementSync::AddPoints(PointFrame frame) {
     points_.pop_front();
     ++statistics_.frames_dropped_full;
   }
-  return restarts ? ImuStream::Clock::kSetBack : ImuStream::Clock::kRunsOn;
+  return restarts;
 }
 
 void MeasurementSync::AddLines(LineFrame frame) {

@@ -9,7 +9,6 @@
 #include "common/imu/imu_sensor.h"
 #include "common/measurements.h"
 #include "common/streams/stamp_order.h"
-#include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/input/imu_stream.h"
 #include "vins_estimator/input/line_pairing.h"
 
@@ -32,7 +31,9 @@ struct FrameStatistics {
   int64_t leaps_ahead = 0;
 };
 
-struct SyncStatistics : ImuStatistics, LinePairingStatistics, FrameStatistics {};
+struct SyncStatistics : ImuStatistics, LinePairingStatistics, FrameStatistics {
+  int64_t imu_dropped_full = 0;  // queue of samples full: oldest dropped
+};
 
 // Synchronizes the front end with the IMU: pairs point and line features by equal timestamps and
 // cuts the IMU stream at the image times. Synchronous and single-threaded: add input in order of
@@ -43,7 +44,7 @@ struct SyncStatistics : ImuStatistics, LinePairingStatistics, FrameStatistics {}
 // the next frame, so that between the first and the last frame no sample is lost or used twice,
 // even if td changes (ImuStream).
 //
-// If the IMU's clock was set (ImuStream), or images go back in time permanently (a bag played
+// If the IMU's clock was set (ImuDoor), or images go back in time permanently (a bag played
 // again), everything except the statistics is reset and a new sequence starts.
 class MeasurementSync {
  public:
@@ -54,7 +55,6 @@ class MeasurementSync {
     int max_line_lag = 3;         // longest wait for a line frame [images]
     double max_line_stall = 0.4;  // the same if the transport stalls [s]
     int line_patience = 10;       // consecutive frames without lines after which lines are missing
-    double max_imu_gap = kMaxImuInterval;  // images in a longer gap are dropped [s]
     // Once the IMU is further ahead of a frame than this [s], newer usable frames replace it: an
     // estimator that is too slow for the rate skips images.
     double max_wait = std::numeric_limits<double>::infinity();
@@ -64,9 +64,11 @@ class MeasurementSync {
 
   explicit MeasurementSync(const Options& options);
 
-  // These return whether the clock was set: then everything before was dropped.
-  ImuStream::Clock AddImu(const ImuSample& sample);
-  ImuStream::Clock AddPoints(PointFrame frame);
+  // Adds a sample as it arrives; returns what came through the door. If the clock was set,
+  // everything before was dropped.
+  AdmittedImu AddImu(const ImuSample& sample);
+  // Returns whether the clock of the images was set back: then everything before was dropped.
+  bool AddPoints(PointFrame frame);
   void AddLines(LineFrame frame);
   void SetTimeOffset(double td) { options_.td = td; }
   // Drops all queued data and timestamps, keeps the statistics.
@@ -86,9 +88,10 @@ class MeasurementSync {
   // Returns whether lines do arrive, but their timestamps match no image.
   bool lines_are_of_other_images() const { return lines_.are_of_other_images(); }
 
+  const ImuDoor& imu_door() const { return imu_.door(); }
   size_t queued_frames() const { return points_.size(); }
   SyncStatistics statistics() const {
-    return {imu_.statistics(), lines_.statistics(), statistics_};
+    return {imu_door().statistics(), lines_.statistics(), statistics_, imu_.dropped_full()};
   }
 
  private:

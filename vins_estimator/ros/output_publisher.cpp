@@ -55,7 +55,6 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle pri
       keyframe_line_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_line", kQueue)),
       keyframe_point_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_point", kQueue)),
       keyframe_pose_(private_node.advertise<nav_msgs::Odometry>("keyframe_pose", kQueue)) {
-  path_.header.frame_id = frames_.world_frame;
   if (frames.publish_tf && !frames.base_frame.empty()) {
     base_.emplace(frames.body_frame, frames.base_frame);
   }
@@ -100,12 +99,7 @@ void OutputPublisher::Publish(const EstimatedFrame& frame) {
 }
 
 void OutputPublisher::Clear() {
-  path_.poses.clear();
-  new_path_poses_ = 0;
-  departed_points_.clear();
-  departed_lines_.clear();
-  absorbed_lines_.clear();
-  history_ns_ = 0;
+  world_ = {};
   const std::lock_guard<std::mutex> lock(history_mutex_);
   const visualization_msgs::Marker nothing = line_history_.Clear();
   PublishIfWanted(history_lines_cloud_, [&] { return nothing; });
@@ -133,40 +127,42 @@ void OutputPublisher::PublishKeyframe(const EstimatedFrame& frame) {
 
 // Publishes one message per interval, because displays store each message as a separate object.
 void OutputPublisher::PublishHistory(const EstimatorOutput& output) {
-  Append(output.departed_points, &departed_points_);
-  Append(output.departed_lines, &departed_lines_);
-  Append(output.absorbed_lines, &absorbed_lines_);
-  if (output.t_ns - history_ns_ < kHistoryInterval_ns) return;
-  history_ns_ = output.t_ns;
-  PublishIfWanted(history_cloud_,
-                  [&] { return ToPointCloud(departed_points_, output.t_ns, frames_.world_frame); });
+  Append(output.departed_points, &world_.departed_points);
+  Append(output.departed_lines, &world_.departed_lines);
+  Append(output.absorbed_lines, &world_.absorbed_lines);
+  if (output.t_ns - world_.history_ns < kHistoryInterval_ns) return;
+  world_.history_ns = output.t_ns;
+  PublishIfWanted(history_cloud_, [&] {
+    return ToPointCloud(world_.departed_points, output.t_ns, frames_.world_frame);
+  });
   PublishLineHistory(output.t_ns);
-  departed_points_.clear();
-  departed_lines_.clear();
-  absorbed_lines_.clear();
+  world_.departed_points.clear();
+  world_.departed_lines.clear();
+  world_.absorbed_lines.clear();
 }
 
 void OutputPublisher::PublishLineHistory(int64_t t_ns) {
   const std::lock_guard<std::mutex> lock(history_mutex_);
-  for (const auto& marker : line_history_.Add(departed_lines_, t_ns)) {
+  for (const auto& marker : line_history_.Add(world_.departed_lines, t_ns)) {
     PublishIfWanted(history_lines_cloud_, [&] { return marker; });
   }
-  line_history_.Remove(absorbed_lines_);  // after Add(), which may add them
+  line_history_.Remove(world_.absorbed_lines);  // after Add(), which may add them
 }
 
 void OutputPublisher::PublishPath(const FrameState& state) {
   geometry_msgs::PoseStamped pose;
   pose.header = MakeHeader(state.t_ns, frames_.world_frame);
   pose.pose = ToPose(state.T_W_B());
-  const bool moved = path_.poses.empty() ||
-                     Distance(path_.poses.back().pose.position, pose.pose.position) > kPathStep;
+  nav_msgs::Path& path = world_.path;
+  const bool moved = path.poses.empty() ||
+                     Distance(path.poses.back().pose.position, pose.pose.position) > kPathStep;
   if (!moved) return;
-  if (path_.poses.size() == kMaxPathPoses) RemoveEverySecond(&path_.poses);
-  path_.poses.push_back(pose);
-  path_.header.stamp = pose.header.stamp;
-  if (++new_path_poses_ < kNewPathShare * static_cast<double>(path_.poses.size())) return;
-  new_path_poses_ = 0;
-  path_publisher_.publish(path_);  // latched, as displays may be opened during a standstill
+  if (path.poses.size() == kMaxPathPoses) RemoveEverySecond(&path.poses);
+  path.poses.push_back(pose);
+  path.header = pose.header;
+  if (++world_.new_path_poses < kNewPathShare * static_cast<double>(path.poses.size())) return;
+  world_.new_path_poses = 0;
+  path_publisher_.publish(path);  // latched, as displays may be opened during a standstill
 }
 
 void OutputPublisher::PublishTransforms(const EstimatorOutput& output) {

@@ -36,6 +36,15 @@ class OutputPublisher {
   void Clear();
 
  private:
+  struct PerWorld {
+    nav_msgs::Path path;
+    int new_path_poses = 0;                 // since it was last published
+    std::vector<MapPoint> departed_points;  // since history_ns
+    std::vector<MapLine> departed_lines;
+    std::vector<int64_t> absorbed_lines;
+    int64_t history_ns = 0;  // last publication of the histories
+  };
+
   ros::Publisher AdvertiseLineHistory(ros::NodeHandle private_node);
   void PublishPath(const FrameState& state);
   void PublishKeyframe(const EstimatedFrame& frame);
@@ -65,12 +74,7 @@ class OutputPublisher {
   ros::Publisher keyframe_pose_;
   tf2_ros::TransformBroadcaster broadcaster_;
   std::optional<RobotBase> base_;
-  nav_msgs::Path path_;
-  int new_path_poses_ = 0;                 // since it was last published
-  std::vector<MapPoint> departed_points_;  // since history_ns_
-  std::vector<MapLine> departed_lines_;
-  std::vector<int64_t> absorbed_lines_;
-  int64_t history_ns_ = 0;  // last publication of the histories
+  PerWorld world_;
 };
 
 }  // namespace plm_vins

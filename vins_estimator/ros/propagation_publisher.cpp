@@ -12,7 +12,7 @@ PropagationPublisher::PropagationPublisher(const Config& config, ros::NodeHandle
 
 void PropagationPublisher::AddImu(const ImuSample& sample) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto state = propagator_.Add(bursts_.Spread(sample));
+  const auto state = propagator_.Add(sample);
   if (!state || publisher_.getNumSubscribers() == 0) return;
   publisher_.publish(ToOdometry(*state, covariance_, propagator_.AngularVelocity(), frames_));
 }

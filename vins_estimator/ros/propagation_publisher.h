@@ -6,7 +6,6 @@
 #include <mutex>
 
 #include "common/config/config.h"
-#include "common/imu/imu_bursts.h"
 #include "vins_estimator/estimation_stage.h"
 #include "vins_estimator/imu/imu_propagator.h"
 #include "vins_estimator/ros/output_conversion.h"
@@ -31,8 +30,7 @@ class PropagationPublisher {
   OutputConfig frames_;
   ros::Publisher publisher_;
   mutable std::mutex mutex_;
-  ImuBursts bursts_;  // guarded by mutex_, as the following members
-  ImuPropagator propagator_;
+  ImuPropagator propagator_;  // guarded by mutex_, as the following member
   StateCovariance covariance_;
 };
 

@@ -18,4 +18,11 @@ inline std::optional<Matrix15d> StateCovariance(int64_t t_ns, NormalEquations* e
   return *covariance;
 }
 
+// Returns the part of the pose.
+inline std::optional<Eigen::Matrix<double, 6, 6>> PoseOf(
+    const std::optional<Matrix15d>& covariance) {
+  if (!covariance) return std::nullopt;
+  return covariance->topLeftCorner<6, 6>();
+}
+
 }  // namespace plm_vins

@@ -22,11 +22,14 @@ class InputCheckTest : public ::testing::Test {
   template <typename Stamp>
   std::string Finding(const Stamp& stamp_of, const Eigen::Vector3d& gyro, double image_error = 0) {
     InputCheck check(sensor_);
+    ImuBursts bursts;
     for (int64_t i = 0; i < 1000; ++i) {
-      check.AddImu({stamp_of(i), gyro, {0, 0, sensor_.gravity_norm}});
+      const ImuSample sample{stamp_of(i), gyro, {0, 0, sensor_.gravity_norm}};
+      check.AddImu(sample);
+      bursts.Spread(sample);
       if (i % 10 == 0) check.AddImage(kStart_ns + i * kStep_ns + ToNanoseconds(image_error));
     }
-    return check.Finding();
+    return check.Finding(bursts);
   }
 
   static int64_t AsTaken(int64_t i) { return kStart_ns + i * kStep_ns; }

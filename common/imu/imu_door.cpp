@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/imu/imu_door.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/format.h"
+#include "common/imu/imu_gap.h"
+#include "common/imu/imu_range.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int64_t kMaxStep_ns = 60'000'000'000;  // no propagation bridges a longer one
+constexpr int64_t kRecent_ns = 1'000'000'000;
+
+}  // namespace
+
+AdmittedImu ImuDoor::Add(const ImuSample& raw) {
+  AdmittedImu admitted;
+  const ImuSample sample = bursts_.Spread(raw);
+  if (!IsReading(sample)) return admitted;
+  const bool follows = recent_.empty() || sample.t_ns > recent_.back().t_ns;
+  if (!follows) {
+    ++statistics_.imu_out_of_order;
+    // A duplicate is no evidence of a clock change, unless samples before it were rejected: then a
+    // recording is played again.
+    if (!jump_.HasRejected() && IsRepeated(sample)) return admitted;
+  }
+  const bool set_back = follows ? jump_.EndsStepBack(sample.t_ns) : jump_.Reject(sample.t_ns);
+  if (!follows && !set_back) return admitted;
+  if (set_back) {
+    Clear();
+    admitted.clock = ClockChange::kBack;
+  }
+  jump_.Accept();
+  DecideAfterGap(sample.t_ns, &admitted);
+  if (!recent_.empty() && IsGap(recent_.back().t_ns, sample.t_ns)) {
+    after_gap_ = sample;
+  } else {
+    Take(sample, &admitted);
+  }
+  return admitted;
+}
+
+bool ImuDoor::IsReading(const ImuSample& sample) {
+  if (IsPlausible(sample)) return true;
+  const bool is_finite = sample.gyro.allFinite() && sample.accel.allFinite();
+  ++(is_finite ? statistics_.imu_implausible : statistics_.imu_not_finite);
+  return false;
+}
+
+// Compares raw samples: those that came out may differ.
+bool ImuDoor::IsRepeated(const ImuSample& sample) const {
+  return std::any_of(recent_.begin(), recent_.end(), [&sample](const ImuSample& known) {
+    return known.t_ns == sample.t_ns && known.gyro == sample.gyro && known.accel == sample.accel;
+  });
+}
+
+void ImuDoor::DecideAfterGap(int64_t next_ns, AdmittedImu* admitted) {
+  if (!after_gap_) return;
+  const ImuSample sample = *std::exchange(after_gap_, std::nullopt);
+  if (next_ns <= sample.t_ns) {
+    ++statistics_.imu_out_of_order;
+    return;
+  }
+  const int64_t newest_ns = recent_.back().t_ns, step_ns = sample.t_ns - newest_ns;
+  if (step_ns > kMaxStep_ns) {
+    Clear();
+    admitted->clock = ClockChange::kForward;
+  } else if (statistics_.imu_gaps++ == 0) {
+    statistics_.first_imu_gap =
+        Format("%.3f s without samples, from %.3f s on", ToSeconds(step_ns), ToSeconds(newest_ns));
+  }
+  Take(sample, admitted);
+}
+
+void ImuDoor::Take(const ImuSample& sample, AdmittedImu* admitted) {
+  recent_.push_back(sample);
+  while (sample.t_ns - recent_.front().t_ns > kRecent_ns) recent_.pop_front();
+  for (const ImuSample& decided : gate_.Add(sample)) admitted->samples.push_back(decided);
+  statistics_.imu_replaced = gate_.replaced();
+  statistics_.imu_saturated = gate_.saturated();
+}
+
+void ImuDoor::Clear() {
+  gate_.Clear();
+  recent_.clear();
+  jump_.Accept();
+  after_gap_.reset();
+}
+
+}  // namespace plm_vins

@@ -22,9 +22,9 @@ struct LastUsableImage {
   std::optional<Eigen::Quaterniond> R_now_then;
 
   // Appends the rotation from the previous image to the newest one.
-  void Rotate(const std::optional<Eigen::Quaterniond>& R_now_then) {
-    if (!R_now_then) R_now_then.reset();
-    if (R_now_then) R_now_then = (*R_now_then * *R_now_then).normalized();
+  void Rotate(const std::optional<Eigen::Quaterniond>& R_now_previous) {
+    if (!R_now_previous) R_now_then.reset();
+    if (R_now_then) R_now_then = (*R_now_previous * *R_now_then).normalized();
   }
 
   double Age(int64_t t_ns) const { return ToSeconds(t_ns - sample.t_ns); }  // [s]

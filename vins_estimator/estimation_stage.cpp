@@ -14,8 +14,8 @@
 #include "vins_estimator/imu/imu_noise_meter.h"
 #include "vins_estimator/initialization/rotation_check.h"
 #include "vins_estimator/input/repeated_image_detector.h"
-#include "vins_estimator/monitoring/companion_report.h"
 #include "vins_estimator/monitoring/contradiction_report.h"
+#include "vins_estimator/monitoring/sensor_report.h"
 #include "vins_estimator/uncertainty/imu_noise_estimate.h"
 
 namespace plm_vins {
@@ -202,8 +202,8 @@ std::vector<ResidualRing> EstimationStage::ResidualRings() const {
   return estimator_->lens().Rings();
 }
 
-std::string EstimationStage::CompanionFault() const {
-  return DescribeFaults(world_->newest.second_camera, world_->newest.depth);
+std::string EstimationStage::SensorFaults() const {
+  return DescribeFaults(world_->newest.cameras, world_->newest.depth);
 }
 
 void EstimationStage::Reset(const std::string& reason) {

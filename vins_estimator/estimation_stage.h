@@ -71,9 +71,9 @@ class EstimationStage {
   // Returns what is wrong with the input as a whole, or was since the last restart.
   const Finding& InputFinding() const;
 
-  // Describes what is wrong with the second camera (its calibration, the time of its exposure, or
-  // the length of its baseline) and with measured depths. Empty if nothing is.
-  std::string CompanionFault() const;
+  // Describes what is wrong with cameras other than the first (calibration, time of exposure,
+  // length of the baseline) and with measured depths. Empty if nothing is.
+  std::string SensorFaults() const;
 
   int64_t frames() const { return frames_; }  // images estimated so far
   int64_t resets() const { return resets_; }  // number of abandoned world frames

@@ -59,7 +59,7 @@ std::vector<std::string> OdometryPipeline::Findings() const {
   const bool is_contradicted = contradicted_images_ >= kMinContradicted;
   for (const std::string& finding :
        {InputFinding(), StillPartsFinding(), trackers_.PairFinding(), back_end_.LensWarning(),
-        is_contradicted ? imu_contradiction_ : "", companion_faults_.finding().text}) {
+        is_contradicted ? imu_contradiction_ : "", sensor_faults_.finding().text}) {
     if (!finding.empty()) findings.push_back(finding);
   }
   return findings;
@@ -227,7 +227,7 @@ void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_
     imu_contradiction_ = contradiction;
     ++contradicted_images_;
   }
-  companion_faults_.Set(estimated.output.t_ns, back_end_.CompanionFault());
+  sensor_faults_.Set(estimated.output.t_ns, back_end_.SensorFaults());
   PipelineFrame frame;
   const auto reported = unfinished_.find(estimated.output.t_ns);
   if (reported != unfinished_.end()) {

@@ -126,7 +126,7 @@ class OdometryPipeline {
   std::function<bool()> is_end_ = [] { return false; };
   ConfirmedStamp first_image_, first_imu_;
   ConstantStamp image_stamps_;
-  FindingMemory stamp_faults_, still_parts_, companion_faults_;
+  FindingMemory stamp_faults_, still_parts_, sensor_faults_;
   std::string imu_contradiction_;    // the last one that was not empty
   int64_t contradicted_images_ = 0;  // images with a contradiction
   std::optional<int64_t> last_frame_ns_;

@@ -21,7 +21,7 @@ from evaluation.trajectory import read_trajectory  # noqa: E402
 
 SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
 SECONDS = 4
-USED = {"stereo": "right_used", "depth": "depths_used"}  # counts of summary.json
+USED = {"stereo": "matched_used", "depth": "depths_used"}  # counts of summary.json
 
 
 class PairFlight(unittest.TestCase):

@@ -60,16 +60,16 @@ std::optional<RotationPair> MeasureRotationPair(const std::deque<FrameMeasuremen
   Preintegration imu(imu_noise, ImuBias{});
   for (const ImuSample& sample : ends[1].imu) imu.Append(sample);
   const auto correspondences =
-      FindCorrespondences(CollectTracks({&ends[0].points, &ends[1].points}), 0, 1);
+      FindCorrespondences(OfCamera(0, CollectTracks({&ends[0].points, &ends[1].points})), 0, 1);
   const auto pose =
       EstimateRelativePose(correspondences, AlignRays(correspondences), noise, reason);
-  if (!pose || Eigen::AngleAxisd(pose->R_C1_C0).angle() < kMinTurn) return std::nullopt;
+  if (!pose || Eigen::AngleAxisd(pose->R_now_then).angle() < kMinTurn) return std::nullopt;
   const double variance = pose->rotation_information.inverse().trace() / 3;
   // If all points coincide, the variance is a rounding error.
   if (!(std::isfinite(variance) && variance >= 0)) return std::nullopt;
   RotationPair pair;
   pair.R_B0_B1 = imu.delta_q();
-  pair.R_C0_C1 = pose->R_C1_C0.conjugate();
+  pair.R_C0_C1 = pose->R_now_then.conjugate();
   pair.duration = imu.duration();
   pair.deviation = std::sqrt(variance + kExcessDeviation * kExcessDeviation);
   pair.rate_change = RateChange(ends[1].imu);

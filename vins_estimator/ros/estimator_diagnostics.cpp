@@ -42,7 +42,7 @@ void EstimatorDiagnostics::UpdateCounts(const EstimationStage& stage, const Drop
   input_finding_ = stage.InputFinding();
   imu_contradiction_ = stage.ImuContradiction();
   lens_warning_ = stage.LensWarning();
-  companion_fault_ = stage.CompanionFault();
+  sensor_faults_ = stage.SensorFaults();
   queued_frames_ = stage.queued_frames();
   lines_are_missing_ = stage.lines_are_missing();
   frames_without_lines_ = stage.statistics().frames_without_lines;
@@ -70,7 +70,7 @@ void EstimatorDiagnostics::Report(size_t queued,
   status->add("estimator_ms", newest_.timings.total);
   status->add("points_observed", newest_.counts.points_observed);
   status->add("points_in_window", newest_.counts.points_in_window);
-  status->add("right_used", newest_.counts.right.used);
+  status->add("matched_used", newest_.counts.matched.used);
   status->add("depths_used", newest_.counts.depth.used);
   status->add("lines_observed", newest_.counts.lines_observed);
   status->add("lines_in_window", newest_.counts.lines_in_window);
@@ -92,11 +92,11 @@ void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapp
   if (!input_finding_.text.empty()) state += "; " + input_finding_.text;
   if (!imu_contradiction_.empty()) state += "; " + imu_contradiction_;
   if (!lens_warning_.empty()) state += "; " + lens_warning_;
-  if (!companion_fault_.empty()) state += "; " + companion_fault_;
+  if (!sensor_faults_.empty()) state += "; " + sensor_faults_;
   if (newest_.contradicted) state += "; the camera contradicts the state";
   const bool fine = tracking && !lines_are_missing_ && !late && !newest_.on_imu_alone &&
                     !newest_.contradicted && !input_finding_.is_present &&
-                    imu_contradiction_.empty() && lens_warning_.empty() && companion_fault_.empty();
+                    imu_contradiction_.empty() && lens_warning_.empty() && sensor_faults_.empty();
   status->summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, state);
 }
 

@@ -66,7 +66,7 @@ class EstimatorDiagnostics {
   Finding input_finding_;
   std::string imu_contradiction_;
   std::string lens_warning_;
-  std::string companion_fault_;
+  std::string sensor_faults_;
   double pose_age_ = 0;       // [s]
   std::string last_restart_;  // reason for the last restart
   int64_t frames_ = 0;

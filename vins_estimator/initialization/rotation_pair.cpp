@@ -69,7 +69,7 @@ std::optional<RotationPair> MeasureRotationPair(const std::deque<FrameMeasuremen
   if (!(std::isfinite(variance) && variance >= 0)) return std::nullopt;
   RotationPair pair;
   pair.R_B0_B1 = imu.delta_q();
-  pair.R_C0_C1 = pose->R_now_then.conjugate();
+  pair.R_then_now = pose->R_now_then.conjugate();
   pair.duration = imu.duration();
   pair.deviation = std::sqrt(variance + kExcessDeviation * kExcessDeviation);
   pair.rate_change = RateChange(ends[1].imu);

@@ -302,6 +302,18 @@ TEST(EstimationStage, FindsAWrongRotationAfterStampsJumpedBack) {
       << stage.InputFinding().text;
 }
 
+TEST(EstimationStage, FindsAWrongTimeOffset) {
+  for (const double delay : {-0.03, 0.03}) {
+    testing::SimulatedFlight flight = GentleFlightFor(20);
+    flight.sensor.td = delay;
+    EstimationStage stage = StageFor(flight);
+    Fly(flight, &stage);
+    const std::string finding = stage.InputFinding().text;
+    ASSERT_EQ(finding.rfind("td is wrong by ", 0), 0u) << finding;
+    EXPECT_NEAR(std::stod(finding.substr(15)), -1e3 * delay, 10);
+  }
+}
+
 // If repeated images counted as observations, they would hold the position for two seconds while
 // the vehicle moves.
 TEST(EstimationStage, RepeatedImageIsNotStandstill) {

@@ -109,7 +109,7 @@ TRACKERS = {"feature_tracker", "linefeature_tracker"}
 ESTIMATOR_OUTPUT = inside("vins_estimator", ["state", "output"])
 
 # Everything that each layer (a folder or a file) may include besides itself; the longest match
-# applies. Tests and benchmarks may include anything, also ROS.
+# applies. Tests may include anything, also ROS.
 LAYERS = {
     **layers_of_part("common", COMMON_LAYERS),
     **layers_of_part("tracking", TRACKING_LAYERS, COMMON),
@@ -136,7 +136,7 @@ LAYERS = {
 WITHOUT_CERES = ["common", "tracking", "feature_tracker", "linefeature_tracker",
                  "vins_estimator/state", "vins_estimator/map", "vins_estimator/output",
                  "vins_estimator/ros", "offline", "mavros_relay", "simulator"]
-CODE_FOLDERS = sorted({folder.split("/")[0] for folder in LAYERS} | {"benchmark", "test"})
+CODE_FOLDERS = sorted({folder.split("/")[0] for folder in LAYERS} | {"test"})
 TEXT_FOLDERS = CODE_FOLDERS + [".ci", "cmake", "config", "docs", "launch", "scripts"]
 TEXT_SUFFIXES = {".cpp", ".h", ".py", ".sh", ".txt", ".cmake", ".md", ".yaml", ".launch", ".test",
                  ".rviz", ".xml", ""}

@@ -14,7 +14,7 @@ changed_sources() {
   if [[ -n "$base" && "$base" != "$(git rev-parse HEAD)" ]]; then
     range=("$base..HEAD")
   fi
-  git log "${range[@]}" --name-only --format= -- '*.cpp' '*.h' ':!benchmark' ':!docs' |
+  git log "${range[@]}" --name-only --format= -- '*.cpp' '*.h' ':!test/benchmark' ':!docs' |
     sed 's/\.h$/.cpp/' | awk '!seen[$0]++' | while read -r source; do
       if [[ -f "$source" ]]; then
         echo "$source"
@@ -23,7 +23,7 @@ changed_sources() {
 }
 
 if [[ "${1:-}" == --all ]]; then
-  mapfile -t sources < <(git ls-files '*.cpp' ':!benchmark' ':!docs')
+  mapfile -t sources < <(git ls-files '*.cpp' ':!test/benchmark' ':!docs')
 elif (($#)); then
   sources=("$@")
 else

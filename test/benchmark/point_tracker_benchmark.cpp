@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/image_benchmark.h"
+#include "test/benchmark/image_benchmark.h"
 #include "common/config/config.h"
 #include "feature_tracker/contrast_equalizer.h"
 #include "feature_tracker/detection/corner_detector.h"

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/image_benchmark.h"
+#include "test/benchmark/image_benchmark.h"
 #include "common/config/config.h"
 #include "linefeature_tracker/detection/line_finder.h"
 #include "linefeature_tracker/following/line_flow.h"

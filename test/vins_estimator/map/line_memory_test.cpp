@@ -34,7 +34,7 @@ std::vector<int64_t> StampsOf(const RememberedLine& line) {
   return stamps;
 }
 
-using Stamps = std::vector<int64_t>;
+using StampList = std::vector<int64_t>;
 
 class LineMemoryTest : public ::testing::Test {
  protected:
@@ -98,23 +98,23 @@ TEST_F(LineMemoryTest, KeepsObservationsOfKnownLinesOnly) {
   EXPECT_EQ(memory_.Find(3), nullptr);
   memory_.Keep(3, LineAlongX(1, 2));
   memory_.KeepObservation(3, SeenAt(20));
-  EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({20}));
+  EXPECT_EQ(StampsOf(*memory_.Find(3)), StampList({20}));
 }
 
 TEST_F(LineMemoryTest, KeepsTheFirstAndTheNewestObservation) {
   static_assert(kMaxAnchorObservations == 4);
   memory_.Keep(3, LineAlongX(1, 2));
   for (const int64_t t_ns : {10, 20, 30, 40}) memory_.KeepObservation(3, SeenAt(t_ns));
-  EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10, 20, 30, 40}));
+  EXPECT_EQ(StampsOf(*memory_.Find(3)), StampList({10, 20, 30, 40}));
   for (const int64_t t_ns : {50, 60}) memory_.KeepObservation(3, SeenAt(t_ns));
-  EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10, 40, 50, 60}));
+  EXPECT_EQ(StampsOf(*memory_.Find(3)), StampList({10, 40, 50, 60}));
 }
 
 TEST_F(LineMemoryTest, UpdateOfALineKeepsItsObservations) {
   memory_.Keep(3, LineAlongX(1, 2));
   memory_.KeepObservation(3, SeenAt(10));
   memory_.Keep(3, LineAlongX(1, 3));
-  EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10}));
+  EXPECT_EQ(StampsOf(*memory_.Find(3)), StampList({10}));
 }
 
 TEST_F(LineMemoryTest, JoinedLinesAreOne) {
@@ -125,7 +125,7 @@ TEST_F(LineMemoryTest, JoinedLinesAreOne) {
   memory_.Join(7, 3);
   EXPECT_EQ(memory_.Find(7), nullptr);
   ExpectSeen(3, {1, 0, 0}, {4, 0, 0});
-  EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10, 20}));
+  EXPECT_EQ(StampsOf(*memory_.Find(3)), StampList({10, 20}));
 }
 
 TEST_F(LineMemoryTest, JoinAddsMissingObservations) {
@@ -133,7 +133,7 @@ TEST_F(LineMemoryTest, JoinAddsMissingObservations) {
   memory_.KeepObservation(7, SeenAt(20));
   memory_.Join(7, 3);
   ExpectSeen(3, {2, 0, 0}, {4, 0, 0});
-  EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({20}));
+  EXPECT_EQ(StampsOf(*memory_.Find(3)), StampList({20}));
 }
 
 TEST_F(LineMemoryTest, JoinOfAnUnknownLineChangesNothing) {
@@ -151,7 +151,7 @@ TEST_F(LineMemoryTest, RemovesObservationsOfARemovedAnchor) {
   }
   memory_.RemoveAnchor(10);
   memory_.RemoveAnchor(99);
-  for (const int64_t id : {3, 7}) EXPECT_EQ(StampsOf(*memory_.Find(id)), Stamps({20}));
+  for (const int64_t id : {3, 7}) EXPECT_EQ(StampsOf(*memory_.Find(id)), StampList({20}));
 }
 
 TEST_F(LineMemoryTest, EvictsTheLeastRecentlyUpdatedLine) {

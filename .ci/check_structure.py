@@ -59,7 +59,7 @@ ESTIMATOR_LAYERS = {
     "least_squares": "state geometry factors",
     "optimization": "factors least_squares",
     "problem": "state geometry imu map factors least_squares",
-    "uncertainty": "state geometry imu map factors least_squares problem",
+    "uncertainty": "state geometry imu monitoring map factors least_squares problem",
     "marginalization": "state map least_squares problem",
     "manhattan": "state geometry map",
     "recall": "state geometry map",

@@ -16,8 +16,9 @@ constexpr size_t kMinSamples = 30;
 constexpr double kMaxChange = 8;  // largest factor on the configured deviation, up or down
 
 double SquaredError(const BundleState& bundle, const LandmarkTrack& landmark,
-                    const LandmarkObservation& observation) {
-  const Eigen::Vector3d p_C = bundle.T_M_C(observation.keyframe).Inverse() * landmark.p_M;
+                    const LandmarkTrack::Observation& observation) {
+  const Eigen::Vector3d p_C =
+      bundle.T_M_C(observation.keyframe, observation.camera).Inverse() * landmark.p_M;
   if (p_C.z() <= 0) return std::numeric_limits<double>::infinity();
   return (p_C.hnormalized() - observation.xy).squaredNorm();
 }
@@ -31,14 +32,17 @@ double Deviation(const std::vector<double>& variances, double configured) {
 }  // namespace
 
 ObservationNoise EstimateNoise(const BundleState& bundle, const ObservationNoise& configured) {
-  std::vector<double> followed, again;
+  std::vector<double> followed, matched, again;
   for (const LandmarkTrack& landmark : bundle.landmarks) {
     double sum = 0;
     size_t count = 0;
-    for (const LandmarkObservation& observation : landmark.observations) {
+    for (const LandmarkTrack::Observation& observation : landmark.observations) {
+      constexpr double kMedian = 2 * M_LN2;  // of chi-square with 2 dof
       const double squared_error = SquaredError(bundle, landmark, observation);
       if (observation.again) {
-        again.push_back(squared_error / (2 * M_LN2));  // median of chi-square with 2 dof
+        again.push_back(squared_error / kMedian);
+      } else if (observation.camera != landmark.observations.front().camera) {
+        matched.push_back(squared_error / kMedian);
       } else {
         sum += squared_error;
         ++count;
@@ -48,7 +52,8 @@ ObservationNoise EstimateNoise(const BundleState& bundle, const ObservationNoise
     if (count >= kMinFollowed)
       followed.push_back(sum / (2.0 * static_cast<double>(count) - kUnknowns));
   }
-  return {Deviation(followed, configured.followed), Deviation(again, configured.again)};
+  return {Deviation(followed, configured.followed), Deviation(matched, configured.matched),
+          Deviation(again, configured.again)};
 }
 
 }  // namespace plm_vins

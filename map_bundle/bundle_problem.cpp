@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "vins_estimator/factors/bundle_priors.h"
+#include "vins_estimator/factors/depth_factor.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
+#include "vins_estimator/geometry/point_in_host.h"
 #include "vins_estimator/least_squares/window_problem.h"
 #include "vins_estimator/optimization/ceres_solver.h"
 
@@ -44,14 +46,18 @@ class BundleProblem {
   void AddLandmark(const LandmarkTrack& landmark);
   int Pose(int keyframe) const { return problem_.Find({BlockKind::kPose, keyframe}); }
   int Motion(int keyframe) const { return problem_.Find({BlockKind::kMotion, keyframe}); }
+  int Extrinsics(int camera) const { return problem_.Find({BlockKind::kExtrinsic, camera}); }
+  TermVariables ChainVariables(const ChainKind& kind, const LandmarkTrack::Observation& host,
+                               const LandmarkTrack::Observation& target) const;
 
   const BundleOptions options_;
   const Eigen::Vector3d gravity_M_;
   BundleState* bundle_;
   const ImuHistory& imu_;
-  FrameState extrinsics_;
+  std::vector<FrameState> extrinsics_;  // as poses, by camera
+  std::array<double, kDepthStreamSize> depth_stream_ = {};
   double time_offset_ = 0;
-  int extrinsic_variable_ = -1, td_variable_ = -1;
+  int depth_stream_variable_ = -1, td_variable_ = -1;
   std::deque<Preintegration> preintegrations_;
   std::vector<std::array<double, kPointSize>> points_;  // image point, inverse depth in the host
   ceres::CauchyLoss loss_{1.0};
@@ -60,8 +66,11 @@ class BundleProblem {
 
 BundleProblem::BundleProblem(const ImuHistory& imu, const BundleOptions& options,
                              BundleState* bundle)
-    : options_(options), gravity_M_(0, 0, -options.gravity_norm), bundle_(bundle), imu_(imu) {
-  extrinsics_.SetPose(bundle->T_B_C);
+    : options_(options),
+      gravity_M_(0, 0, -options.gravity_norm),
+      bundle_(bundle),
+      imu_(imu),
+      extrinsics_(bundle->T_B_C.size()) {
   AddVariables();
   AddMotions();
   HoldFirst();
@@ -77,8 +86,13 @@ void BundleProblem::AddVariables() {
     problem_.AddVariable({BlockKind::kMotion, number}, state.motion.data(), constant);
   }
   constexpr bool kConstant = true;
-  extrinsic_variable_ =
-      problem_.AddVariable({BlockKind::kExtrinsic, 0}, extrinsics_.pose.data(), kConstant);
+  for (size_t i = 0; i < extrinsics_.size(); ++i) {
+    extrinsics_[i].SetPose(bundle_->T_B_C[i]);
+    problem_.AddVariable({BlockKind::kExtrinsic, static_cast<int64_t>(i)},
+                         extrinsics_[i].pose.data(), kConstant);
+  }
+  depth_stream_variable_ =
+      problem_.AddVariable({BlockKind::kDepthStream, 0}, depth_stream_.data(), kConstant);
   td_variable_ = problem_.AddVariable({BlockKind::kTimeOffset, 0}, &time_offset_, kConstant);
 }
 
@@ -119,27 +133,42 @@ void BundleProblem::HoldFirst() {
   problem_.AddTerm(GaugePrior(first.start, kGaugeDeviation), nullptr, {Pose(number)});
 }
 
+TermVariables BundleProblem::ChainVariables(const ChainKind& kind,
+                                            const LandmarkTrack::Observation& host,
+                                            const LandmarkTrack::Observation& target) const {
+  if (kind.is_host()) return {};
+  TermVariables poses{Extrinsics(host.camera)};
+  if (!kind.same_frame) {
+    poses.Add(Pose(host.keyframe));
+    poses.Add(Pose(target.keyframe));
+  }
+  if (!kind.same_camera) poses.Add(Extrinsics(target.camera));
+  return poses;
+}
+
 // Parameterizes the landmark by its first observation (host) and inverse depth, with one factor for
-// each other observation.
+// each observation and each measured depth.
 void BundleProblem::AddLandmark(const LandmarkTrack& landmark) {
-  const LandmarkObservation& host = landmark.observations.front();
-  const Eigen::Vector3d p_C = bundle_->T_M_C(host.keyframe).Inverse() * landmark.p_M;
+  const LandmarkTrack::Observation& host = landmark.observations.front();
+  const Eigen::Vector3d p_C = bundle_->T_M_C(host.keyframe, host.camera).Inverse() * landmark.p_M;
   const BlockId id{BlockKind::kPoint, static_cast<int64_t>(points_.size())};
   points_.push_back({p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1 / p_C.z()});
   const int index = problem_.AddLandmark(id, points_.back().data());
   const int point = problem_.Find(id);
-  const auto bearing = [](const LandmarkObservation& observation) {
-    return TimedBearing{observation.xy, Eigen::Vector2d::Zero(), 0};
-  };
-  problem_.AddLandmarkTerm(index, PointHostFactor(bearing(host), 1 / options_.noise.followed),
-                           &loss_, {td_variable_, point});
-  const int host_pose = Pose(host.keyframe);
-  for (const LandmarkObservation& observation : landmark.observations) {
-    if (observation.keyframe == host.keyframe) continue;
-    const double noise = observation.again ? options_.noise.again : options_.noise.followed;
-    problem_.AddLandmarkTerm(
-        index, PointFactor(bearing(observation), 1 / noise), &loss_,
-        {host_pose, Pose(observation.keyframe), extrinsic_variable_, td_variable_, point});
+  for (const LandmarkTrack::Observation& target : landmark.observations) {
+    const ChainKind kind{target.keyframe == host.keyframe, target.camera == host.camera};
+    TermVariables variables = ChainVariables(kind, host, target);
+    TermVariables depth_variables = variables;
+    variables.Add(td_variable_);
+    variables.Add(point);
+    const TimedBearing bearing{target.xy, Eigen::Vector2d::Zero(), 0};
+    problem_.AddLandmarkTerm(index, PointFactor(kind, bearing, 1 / options_.noise.Of(target, host)),
+                             &loss_, variables);
+    if (!target.depth) continue;
+    depth_variables.Add(depth_stream_variable_);
+    depth_variables.Add(point);
+    problem_.AddLandmarkTerm(index, DepthFactor(kind, {*target.depth}, 1 / options_.depth_noise),
+                             &loss_, depth_variables);
   }
 }
 
@@ -147,8 +176,9 @@ void BundleProblem::TakeOverLandmarks() {
   for (size_t i = 0; i < points_.size(); ++i) {
     LandmarkTrack& landmark = bundle_->landmarks[i];
     const auto& [x, y, inverse_depth] = points_[i];
-    landmark.p_M = bundle_->T_M_C(landmark.observations.front().keyframe) *
-                   (Eigen::Vector3d(x, y, 1) / inverse_depth);
+    const LandmarkTrack::Observation& host = landmark.observations.front();
+    landmark.p_M =
+        bundle_->T_M_C(host.keyframe, host.camera) * (Eigen::Vector3d(x, y, 1) / inverse_depth);
   }
 }
 

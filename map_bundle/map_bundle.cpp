@@ -2,10 +2,12 @@
 #include "map_bundle/map_bundle.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "common/append.h"
 #include "map_bundle/bundle_noise.h"
 #include "map_bundle/bundle_problem.h"
+#include "map_bundle/landmark_collection.h"
 
 namespace plm_vins {
 namespace {
@@ -13,16 +15,35 @@ namespace {
 size_t CountAgain(const std::vector<LandmarkTrack>& landmarks) {
   size_t count = 0;
   for (const LandmarkTrack& landmark : landmarks) {
-    for (const LandmarkObservation& observation : landmark.observations)
+    for (const LandmarkTrack::Observation& observation : landmark.observations) {
       count += observation.again ? 1 : 0;
+    }
   }
   return count;
 }
 
+// Returns the observations that the map does not keep, with the positions of their landmarks.
+std::vector<KeyframeObservation> OthersOf(const PointFrame& frame,
+                                          const std::vector<MapPoint>& landmarks) {
+  std::unordered_map<int64_t, Eigen::Vector3d> positions;
+  for (const MapPoint& landmark : landmarks) positions.emplace(landmark.id, landmark.p_W);
+  std::vector<KeyframeObservation> others;
+  for (const PointObservation& point : frame.points) {
+    if (point.camera == 0 && !point.depth) continue;
+    KeyframeObservation& other = others.emplace_back();
+    other.track = point.id;
+    other.camera = point.camera;
+    other.xy = point.xy;
+    other.depth = point.depth;
+    if (const auto p = positions.find(point.id); p != positions.end()) other.p_O = p->second;
+  }
+  return others;
+}
+
 }  // namespace
 
-void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry,
-                            int64_t imu_ns) {
+void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry, int64_t imu_ns,
+                            const PointFrame& points) {
   const int newest = map.graph.size() - 1;
   BundleKeyframe& keyframe = keyframes_[newest];
   keyframe.world = map.keyframes[newest].world;
@@ -31,6 +52,11 @@ void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odome
   keyframe.state.t_ns = imu_ns;
   keyframe.noise = odometry.imu_noise;
   keyframe.stationary = odometry.stationary;
+  keyframe.observations = OthersOf(points, odometry.points);
+  T_B_C_.clear();
+  for (const CameraCalibration& camera : odometry.calibration.cameras) {
+    T_B_C_.push_back(camera.T_B_C);
+  }
 }
 
 void MapBundle::AddLoops(const KeyframeMap& map, const LoopClosure& closure) {
@@ -45,7 +71,11 @@ void MapBundle::AddPlace(const KeyframeMap& map, const RecognizedPlace& place, b
   added.counts = counts;
   const auto add = [&](const std::vector<SeenPoint>& seen, int of, int by) {
     for (const SeenPoint& point : seen) {
-      added.observations.push_back({{map.keyframes[of].world, point.track}, by, point.xy});
+      LandmarkTrack::Observation observation;
+      observation.keyframe = by;
+      observation.xy = point.xy;
+      observation.again = true;
+      added.observations.push_back({{map.keyframes[of].world, point.track}, observation});
     }
   };
   add(place.observations.of_earlier, place.earlier, newest);
@@ -73,12 +103,14 @@ std::vector<Reobservation> MapBundle::Observations() const {
 BundleState MapBundle::StateOf(const KeyframeMap& map) const {
   const std::vector<int> numbers = map.NumbersInMap();
   BundleState bundle;
-  bundle.T_B_C = map.keyframes.back().T_B_C;
+  bundle.T_B_C = T_B_C_;
+  bundle.T_B_C.resize(std::max<size_t>(1, T_B_C_.size()));
+  bundle.T_B_C.front() = map.keyframes.back().T_B_C;
   for (const int number : numbers) {
     BundleKeyframe& member = bundle.keyframes[number];
     const auto of_this_run = keyframes_.find(number);
     if (of_this_run == keyframes_.end()) {  // keyframe of the loaded map: its camera pose is fixed
-      member.state.SetPose(map.T_M_C(number) * bundle.T_B_C.Inverse());
+      member.state.SetPose(map.T_M_C(number) * bundle.T_B_C.front().Inverse());
       continue;
     }
     member = of_this_run->second;
@@ -87,7 +119,7 @@ BundleState MapBundle::StateOf(const KeyframeMap& map) const {
     member.state.velocity() = T_M_O.rotation() * Eigen::Vector3d(member.state.velocity());
     member.start = member.state;
   }
-  bundle.landmarks = CollectLandmarks(map, numbers, Observations());
+  bundle.landmarks = CollectLandmarks(map, bundle, Observations());
   return bundle;
 }
 
@@ -99,10 +131,12 @@ size_t MapBundle::KeyframesToAdjust(const KeyframeMap& map) const {
 
 // Estimates the observation noise of each round from the residuals of the previous round.
 void MapBundle::AdjustInRounds(const std::function<bool()>& is_end, BundleState* bundle) {
-  const ObservationNoise configured = {options_.point_noise, options_.point_noise};
+  const double noise = options_.point_noise;
+  const ObservationNoise configured = {noise, noise, noise};
   BundleOptions options;
   options.gravity_norm = options_.gravity_norm;
   options.noise = configured;
+  options.depth_noise = options_.depth_noise;
   constexpr int kRounds = 3;
   while (summary_.rounds < kRounds) {
     summary_.ended = is_end();
@@ -127,7 +161,7 @@ std::optional<AdjustedMap> MapBundle::Adjust(const KeyframeMap& map,
   if (summary_.rounds == 0) return std::nullopt;
 
   AdjustedMap adjusted;
-  adjusted.T_B_C = bundle.T_B_C;
+  adjusted.T_B_C = bundle.T_B_C.front();
   for (const auto& [number, keyframe] : bundle.keyframes) {
     if (keyframe.moves()) adjusted.T_M_B[number] = keyframe.state.T_W_B();
   }

@@ -22,6 +22,7 @@ namespace plm_vins {
 struct MapBundleOptions {
   double gravity_norm = 9.81;  // [m/s^2]
   double point_noise = 1e-3;   // initial standard deviation of a corner (normalized)
+  double depth_noise = 0.002;  // of a measured inverse depth, if there are any [1/m]
   size_t min_places = 3;       // recognized places
   size_t min_keyframes = 60;   // below both minima, bundle adjustment does not improve on odometry
 };
@@ -47,9 +48,11 @@ class MapBundle {
 
   void AddImu(const ImuSample& sample) { imu_.Add(sample); }
 
-  // Records the odometry state of the map's newest keyframe. `imu_ns` is its timestamp in IMU time;
-  // the samples up to it must have been added.
-  void AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry, int64_t imu_ns);
+  // Records the odometry state of the map's newest keyframe, and of its observations those that the
+  // map does not keep. `imu_ns` is its timestamp in IMU time; the samples up to it must have been
+  // added.
+  void AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry, int64_t imu_ns,
+                   const PointFrame& points);
 
   // Records the loop observations of the map's newest keyframe. They are used while the pose graph
   // keeps the loop. Loops that were accepted only after waiting for agreement are not used, since
@@ -83,6 +86,7 @@ class MapBundle {
 
   MapBundleOptions options_;
   ImuHistory imu_;
+  std::vector<Rigid3d> T_B_C_;                   // by camera, at the newest keyframe
   std::map<int, BundleKeyframe> keyframes_;      // keyframes of this run, by number; states in O
   std::map<std::pair<int, int>, Place> places_;  // by (later, earlier) keyframe number
   MapBundleSummary summary_;

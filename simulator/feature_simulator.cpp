@@ -26,7 +26,7 @@ enum Stream : uint64_t {
   kLineTracks,
   kPointNoise,
   kLineNoise,
-  kRightNoise,
+  kSecondNoise,
   kDepthNoise
 };
 
@@ -63,10 +63,10 @@ class FeatureCamera {
                      StreamSeed(options.seed, kLineTracks)),
         point_random_(StreamSeed(options.seed, kPointNoise)),
         line_random_(StreamSeed(options.seed, kLineNoise)),
-        right_random_(StreamSeed(options.seed, kRightNoise)),
+        second_random_(StreamSeed(options.seed, kSecondNoise)),
         depth_random_(StreamSeed(options.seed, kDepthNoise)) {
     const std::vector<CameraSensor>& cameras = options.sensors.cameras;
-    if (cameras.size() > 1) right_camera_ = CameraModel::Create(cameras[1].parameters);
+    if (cameras.size() > 1) second_camera_ = CameraModel::Create(cameras[1].parameters);
   }
 
   // Adds the image with timestamp `t_ns`, exposed `time` seconds after the start.
@@ -136,25 +136,34 @@ class FeatureCamera {
       const auto xy = camera_->Unproject(observation.uv_px);
       if (!xy) continue;
       observation.xy = *xy;
-      const Vector3d& p_W = dataset_->world.points[track.landmark];
-      ObserveDepth(RowAt(pixels.at(track.landmark)) * p_W, &observation);
+      const Vector3d p_C =
+          RowAt(pixels.at(track.landmark)) * dataset_->world.points[track.landmark];
+      ObserveDepth(p_C, &observation);
       frame.points.push_back(observation);
+      if (const auto second = ObserveInSecond(p_C)) {
+        frame.points.emplace_back().id = track.id;
+        frame.points.back().xy = *second;
+        frame.points.back().camera = 1;
+      }
     }
     FillVelocities(&frame);
+    SortByCamera(&frame.points);
     return frame;
   }
 
-  // Adds the observation in the second camera and the measured depth, if these sensors exist.
+  // Returns the observation in the second camera, if there is one and it sees the point.
+  std::optional<Vector2d> ObserveInSecond(const Vector3d& p_C) {
+    if (!second_camera_) return std::nullopt;
+    const Rigid3d T_C1_C =
+        options_.sensors.cameras[1].T_B_C.Inverse() * options_.sensors.cameras[0].T_B_C;
+    const auto pixel = ProjectTo(*second_camera_, T_C1_C * p_C);
+    if (!pixel) return std::nullopt;
+    return second_camera_->Unproject(
+        Disturb(*pixel, options_.second_outlier_ratio, &second_random_));
+  }
+
+  // Adds the measured depth, if there is a sensor.
   void ObserveDepth(const Vector3d& p_C, PointObservation* observation) {
-    if (right_camera_) {
-      const Rigid3d T_C1_C =
-          options_.sensors.cameras[1].T_B_C.Inverse() * options_.sensors.cameras[0].T_B_C;
-      const auto pixel = ProjectTo(*right_camera_, T_C1_C * p_C);
-      if (pixel) {
-        observation->right =
-            right_camera_->Unproject(Disturb(*pixel, options_.right_outlier_ratio, &right_random_));
-      }
-    }
     const auto& depth = options_.sensors.depth;
     if (depth && p_C.z() < depth->max) {
       observation->depth = p_C.z() + depth->noise * p_C.z() * p_C.z() * depth_random_.Normal();
@@ -177,12 +186,12 @@ class FeatureCamera {
   }
 
   void FillVelocities(PointFrame* frame) {
-    std::map<int64_t, Vector2d> current_xy;
+    std::map<int64_t, Vector2d> current_xy;  // by TrackKey()
     const double interval = ToSeconds(frame->t_ns - previous_t_ns_);
     for (PointObservation& point : frame->points) {
-      const auto previous = previous_xy_.find(point.id);
+      const auto previous = previous_xy_.find(TrackKey(point));
       if (previous != previous_xy_.end()) point.velocity = (point.xy - previous->second) / interval;
-      current_xy[point.id] = point.xy;
+      current_xy[TrackKey(point)] = point.xy;
     }
     previous_xy_ = std::move(current_xy);
     previous_t_ns_ = frame->t_ns;
@@ -254,9 +263,9 @@ class FeatureCamera {
   const FeatureSimulationOptions& options_;
   FeatureDataset* dataset_;
   std::unique_ptr<const CameraModel> camera_;
-  std::unique_ptr<const CameraModel> right_camera_;  // null without a second camera
+  std::unique_ptr<const CameraModel> second_camera_;  // null without a second camera
   TrackSelector point_tracks_, line_tracks_;
-  Random point_random_, line_random_, right_random_, depth_random_;
+  Random point_random_, line_random_, second_random_, depth_random_;
   std::vector<Rigid3d> T_C_W_;  // for each row; a single one for a global shutter
   std::map<int64_t, Vector2d> previous_xy_;
   int64_t previous_t_ns_ = 0;

@@ -34,9 +34,9 @@ struct FeatureSimulationOptions {
   double line_break_probability = 0.0;
   double point_outlier_ratio = 0.0;  // share of observations with errors of up to outlier_px
   double outlier_px = 40.0;
-  double right_outlier_ratio = 0.0;  // share of such observations in the second camera
-  int max_points = 150;              // for each image
-  int max_lines = 50;                // for each image
+  double second_outlier_ratio = 0.0;  // share of such observations in the second camera
+  int max_points = 150;               // for each image
+  int max_lines = 50;                 // for each image
   double min_line_length_px = 40.0;
   uint64_t seed = 1;  // seed of landmarks and noise; the trajectory has its own
 };

@@ -10,8 +10,8 @@
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/initialization/rotation_check.h"
-#include "vins_estimator/monitoring/companion_report.h"
 #include "vins_estimator/monitoring/contradiction_report.h"
+#include "vins_estimator/monitoring/sensor_report.h"
 #include "vins_estimator/uncertainty/imu_noise_estimate.h"
 
 namespace plm_vins {
@@ -171,9 +171,7 @@ std::vector<ResidualRing> EstimationStage::ResidualRings() const {
   return estimator_->lens().Rings();
 }
 
-std::string EstimationStage::CompanionFault() const {
-  return DescribeFaults(second_camera_, depth_);
-}
+std::string EstimationStage::SensorFaults() const { return DescribeFaults(cameras_, depth_); }
 
 void EstimationStage::Reset(const std::string& reason) {
   sync_.Clear();
@@ -188,7 +186,7 @@ void EstimationStage::StartOver(const std::string& reason) {
   imu_noise_ = configured_noise_;
   imu_noise_scale_ = 1;
   delay_.reset();
-  second_camera_ = {};
+  cameras_.clear();
   depth_ = {};
   sync_.SetTimeOffset(estimator_->time_offset());
   if (reinitializing_) return;
@@ -224,7 +222,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   least_speed_ = LeastSpeed(frame.output);
   imu_noise_scale_ = frame.output.imu_noise_scale;
   delay_ = frame.output.delay;
-  second_camera_ = frame.output.second_camera;
+  cameras_ = frame.output.cameras;
   depth_ = frame.output.depth;
   if (frame.output.restarted) ++resets_;
   reinitializing_ = false;

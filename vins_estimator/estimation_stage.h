@@ -75,9 +75,9 @@ class EstimationStage {
   // empty string if nothing is.
   std::string InputFinding() const;
 
-  // Describes what is wrong with the second camera (its calibration, the time of its exposure, or
-  // the length of its baseline) and with measured depths. Empty if nothing is.
-  std::string CompanionFault() const;
+  // Describes what is wrong with cameras other than the first (calibration, time of exposure,
+  // length of the baseline) and with measured depths. Empty if nothing is.
+  std::string SensorFaults() const;
 
   int64_t frames() const { return frames_; }  // images estimated so far
   int64_t resets() const { return resets_; }  // number of abandoned world frames
@@ -112,7 +112,7 @@ class EstimationStage {
   ImuNoise imu_noise_;
   double imu_noise_scale_ = 1;
   std::optional<double> delay_;  // [s]
-  SecondCameraFaults second_camera_;
+  std::vector<CameraFaults> cameras_;
   DepthFaults depth_;
   int64_t frames_ = 0;
   int64_t frames_repeated_ = 0;  // repeated images, whose features were ignored

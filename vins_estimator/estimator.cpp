@@ -24,7 +24,7 @@ Estimator::State::State(const Config& config, const EstimatorOptions& options)
       standstill_detector(config.sensor.imu_noise),
       odometry(config, options),
       bridge(config.sensor.imu_noise, odometry.window().gravity_W) {
-  if (config.sensor.rolling_shutter) rolling_shutter.emplace(config.sensor.cameras[0].parameters);
+  if (config.sensor.rolling_shutter) rolling_shutter.emplace(config.sensor.cameras);
 }
 
 Estimator::Estimator(const Config& config)
@@ -54,15 +54,16 @@ EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
 FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
   const SlidingWindow& window = state_.odometry.window();
   if (state_.rolling_shutter) {
-    measurement = state_.rolling_shutter->ToStamp(std::move(measurement), window.T_B_C().rotation,
+    std::vector<Eigen::Quaterniond> R_B_C;
+    for (const WindowCamera& camera : window.cameras) R_B_C.push_back(camera.T_B_C().rotation);
+    measurement = state_.rolling_shutter->ToStamp(std::move(measurement), R_B_C,
                                                   config_.sensor.ReadoutTime());
   }
   if (options_.problem.estimate_intrinsics) {
-    const CameraParameters& camera = config_.sensor.cameras[0].parameters;
-    Recalibration(camera, camera.With(window.ray_intrinsics)).Move(&measurement);
-    if (config_.sensor.cameras.size() > 1) {
-      const CameraParameters& right = config_.sensor.cameras[1].parameters;
-      Recalibration(right, right.With(window.right_ray_intrinsics)).MoveRight(&measurement);
+    for (size_t i = 0; i < window.cameras.size(); ++i) {
+      const CameraParameters& configured = config_.sensor.cameras[i].parameters;
+      Recalibration(configured, configured.With(window.cameras[i].ray_intrinsics))
+          .Move(static_cast<int>(i), &measurement);
     }
   }
   return measurement;

@@ -43,8 +43,8 @@ WindowOdometry::WindowOdometry(const Config& config, const EstimatorOptions& opt
       options_(&options),
       estimate_(EmptyWindow(config.sensor, options.map)),
       structure_(options.same_line),
-      noise_(1 / options.problem.point_weight, 1 / options.problem.line_weight),
-      stereo_monitor_(1 / options.problem.point_weight),
+      noise_(1 / options.problem.cameras[0].point_weight, 1 / options.problem.line_weight),
+      rig_monitor_(options.problem, options.focal_length),
       imu_noise_(config.sensor.imu_noise) {}
 
 EstimatorOutput WindowOdometry::Start(const InitializationResult& result,
@@ -52,15 +52,16 @@ EstimatorOutput WindowOdometry::Start(const InitializationResult& result,
   Fill(result, uncertainty);
   const Step step = SolveFirstWindow();
   started_ = true;
-  const bool has_depth = config_->sensor.cameras.size() > 1 || config_->sensor.depth;
-  depth_evidence_.Begin(window().newest().state.position(), has_depth || !result.from_standstill);
+  depth_evidence_.Begin(window().newest().state.position(), !result.from_standstill);
   return Describe(step);
 }
 
 void WindowOdometry::Fill(const InitializationResult& result,
                           const InitialUncertainty& uncertainty) {
   SlidingWindow& window = estimate_.map.window;
-  window.SetExtrinsic(result.T_B_C);
+  for (size_t i = 0; i < window.cameras.size(); ++i) {
+    window.cameras[i].SetExtrinsics(result.T_B_C[i]);
+  }
   for (const InitialFrame& frame : result.frames) {
     AddFrame(frame.measurement);
     window.newest().state = frame.state;
@@ -81,9 +82,9 @@ WindowOdometry::Step WindowOdometry::SolveFirstWindow() {
     imu_noise_.Reset();  // re-estimated from the next solution
     step.Take(SolveWindow(CurrentSolution()));
   }
-  const DepthCounts right = JudgeSecondCamera();
+  const DepthCounts matched = rig_monitor_.Judge(&estimate_.map);
   step.counts = CountLandmarks();
-  step.counts.right = right;
+  step.counts.matched = matched;
   return step;
 }
 
@@ -101,6 +102,7 @@ WindowOdometry::Tracked WindowOdometry::Track(
   tracked.newest = map.window.newest().state;
   tracked.covariance = step.solution.covariance;
   depth_evidence_.Add(tracked.newest.position(), tracked.covariance);
+  depth_evidence_.AddMeasured(step.counts.matched.used + step.counts.depth.used);
   tracked.failure = estimate_monitor_.Add(
       {step.solution.exists, map.window.newest().stationary, predicted, tracked.newest,
        PoseOf(tracked.covariance), features_observed, step.counts,
@@ -181,9 +183,7 @@ FrameState WindowOdometry::AddFrame(const FrameMeasurement& measurement) {
 
 LineTriangulationCounts WindowOdometry::Triangulate() {
   LocalMap& map = estimate_.map;
-  const int64_t now_ns = map.window.newest().state.t_ns;
-  if (stereo_monitor_.misfit()) map.points.ForgetUntriangulatedDepths();
-  if (!stereo_monitor_.UsesLines(now_ns)) map.lines.ForgetUntriangulatedDepths();
+  rig_monitor_.DropUnfit(&map);
   map.points.Triangulate(map.window, options_->min_triangulation_angle,
                          options_->unnoticed_turn_rate);
   return map.lines.Triangulate(map.window, options_->line_limits);
@@ -211,9 +211,7 @@ ProblemOptions WindowOdometry::CurrentProblem(JacobiansAt jacobians_at) const {
   if (config_->estimator.manhattan_constraints) options.R_W_M = structure_.manhattan().R_W_M();
   options.SetNoise(noise_.point(), noise_.line());
   const LocalMap& map = estimate_.map;
-  options.right_weight = 1 / std::max(noise_.point(), stereo_monitor_.noise());
-  options.right_line_noise_factor =
-      stereo_monitor_.line_noise_factor(map.window.newest().state.t_ns);
+  rig_monitor_.SetWeights(map.window.newest().state.t_ns, &options);
   if (map.window.HasStationary()) {
     options.LetPass(options_->passing_flow, map.points.MedianDepthInNewest(map.window));
   }
@@ -277,10 +275,7 @@ WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& option
       SolveBy(config_->estimator.solver, options, builder.problem(), &equations).solved;
   solution.covariance = StateCovariance(map.window.newest().state.t_ns, &equations);
   keyframe_.covariance = StateCovariance(keyframe_.t_ns, &equations);
-  if (const auto& cameras = config_->sensor.cameras; cameras.size() > 1) {
-    const double length = (cameras[0].T_B_C.Inverse() * cameras[1].T_B_C).translation.norm();
-    baseline_error_ = BaselineError(map.window, length, &equations);
-  }
+  rig_monitor_.JudgeBaselines(map.window, &equations);
   if (config_->sensor.depth) depth_faults_ = FaultsOfDepths(map.window, &equations);
   if (config_->estimator.adapt_imu_noise) {
     imu_noise_.Learn(map.window, !started_, &equations);
@@ -319,7 +314,7 @@ EstimatorCounts WindowOdometry::LearnFromWindow() {
   LocalMap& map = estimate_.map;
   EstimatorCounts counts = CountLandmarks();
   counts.points_rejected = map.points.RemoveOutliers(map.window, options_->max_reprojection_error);
-  counts.right = JudgeSecondCamera();
+  counts.matched = rig_monitor_.Judge(&map);
   if (config_->sensor.depth) {
     counts.depth = map.points.RemoveDepthOutliers(map.window, options_->max_inverse_depth_error);
   }
@@ -328,12 +323,6 @@ EstimatorCounts WindowOdometry::LearnFromWindow() {
   if (config_->estimator.adapt_noise) noise_.Update(map);
   imu_noise_.Reweigh(&map.window);
   return counts;
-}
-
-DepthCounts WindowOdometry::JudgeSecondCamera() {
-  if (config_->sensor.cameras.size() == 1) return {};
-  LocalMap& map = estimate_.map;
-  return stereo_monitor_.Judge(map.window, &map.points, &map.lines);
 }
 
 DepartedLandmarks WindowOdometry::SlideWindow(bool keep_second_newest) {
@@ -382,10 +371,7 @@ EstimatorOutput WindowOdometry::Describe(const Step& step) const {
                           covariance->bottomRightCorner<6, 6>()};
   }
   output.calibration = CalibrationIn(window, config_->sensor);
-  if (config_->sensor.cameras.size() > 1) {
-    output.second_camera = {stereo_monitor_.misfit(), stereo_monitor_.delay(), baseline_error_};
-    if (auto& misfit = output.second_camera.misfit_px) *misfit *= options_->focal_length;
-  }
+  output.cameras = rig_monitor_.Faults();
   output.depth = depth_faults_;
   output.R_W_M = structure_.manhattan().R_W_M();
   output.imu_noise = imu_noise_.noise();

@@ -17,10 +17,10 @@
 #include "vins_estimator/monitoring/depth_evidence.h"
 #include "vins_estimator/monitoring/estimate_monitor.h"
 #include "vins_estimator/monitoring/imu_agreement.h"
-#include "vins_estimator/monitoring/stereo_monitor.h"
 #include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/state/estimator_output.h"
 #include "vins_estimator/uncertainty/imu_noise_learning.h"
+#include "vins_estimator/uncertainty/rig_monitor.h"
 #include "vins_estimator/uncertainty/view_noise.h"
 
 namespace plm_vins {
@@ -111,7 +111,6 @@ class WindowOdometry {
   bool DoubtsNewestInterval();
   EstimatorCounts CountLandmarks() const;
   EstimatorCounts LearnFromWindow();
-  DepthCounts JudgeSecondCamera();
   std::vector<PixelResidual> MiddleResiduals() const;
   PointMap::Fit FitOfNewest(int64_t keyframe_ns) const;
   DepartedLandmarks SlideWindow(bool keep_second_newest);
@@ -132,8 +131,7 @@ class WindowOdometry {
   WindowEstimate estimate_;
   LineStructure structure_;
   ViewNoise noise_;
-  StereoMonitor stereo_monitor_;
-  std::optional<LengthEvidence> baseline_error_;
+  RigMonitor rig_monitor_;
   DepthFaults depth_faults_;
   ImuNoiseLearning imu_noise_;
   ImuAgreement imu_agreement_;

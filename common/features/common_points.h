@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -26,6 +28,16 @@ inline std::vector<CommonPoint> CommonPoints(const PointFrame& first, const Poin
     if (before != by_track.end()) common.push_back({before->second, &point});
   }
   return common;
+}
+
+// Returns those of the camera with the most, because motions in several images do not add up.
+inline std::vector<CommonPoint> CommonPointsOfOneCamera(const PointFrame& first,
+                                                        const PointFrame& second) {
+  const std::vector<CommonPoint> all = CommonPoints(first, second);
+  std::array<std::vector<CommonPoint>, kMaxCameras> by_camera;
+  for (const CommonPoint& point : all) by_camera[point.first->camera].push_back(point);
+  return *std::max_element(by_camera.begin(), by_camera.end(),
+                           [](const auto& a, const auto& b) { return a.size() < b.size(); });
 }
 
 }  // namespace plm_vins

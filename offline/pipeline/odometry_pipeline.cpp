@@ -59,7 +59,7 @@ std::vector<std::string> OdometryPipeline::Findings() const {
   const bool is_contradicted = contradicted_images_ >= kMinContradicted;
   for (const std::string& finding :
        {InputFinding(), trackers_.StillPartsFinding(), trackers_.PairFinding(),
-        back_end_.LensWarning(), is_contradicted ? imu_contradiction_ : "", companion_fault_}) {
+        back_end_.LensWarning(), is_contradicted ? imu_contradiction_ : "", sensor_faults_}) {
     if (!finding.empty()) findings.push_back(finding);
   }
   return findings;
@@ -225,8 +225,8 @@ void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_
     imu_contradiction_ = contradiction;
     ++contradicted_images_;
   }
-  const std::string fault = back_end_.CompanionFault();
-  if (!fault.empty()) companion_fault_ = fault;
+  const std::string fault = back_end_.SensorFaults();
+  if (!fault.empty()) sensor_faults_ = fault;
   PipelineFrame frame;
   const auto reported = unfinished_.find(estimated.output.t_ns);
   if (reported != unfinished_.end()) {

@@ -127,7 +127,7 @@ class OdometryPipeline {
   ConstantStamp image_stamps_;
   std::string imu_contradiction_;    // the last one that was not empty
   int64_t contradicted_images_ = 0;  // images with a contradiction
-  std::string companion_fault_;      // the last one that was not empty
+  std::string sensor_faults_;        // the last one that was not empty
   std::optional<int64_t> last_frame_ns_;
   int64_t images_ = 0;
   int64_t unreadable_images_ = 0;

@@ -60,8 +60,8 @@ std::vector<Column<int>> CountsOf(const PipelineFrame& frame) {
           {"merge_inconsistent", merging.inconsistent},
           {"lines_in_window", counts.lines_in_window},
           {"lines_rejected", counts.lines_rejected},
-          {"right_used", counts.right.used},
-          {"right_rejected", counts.right.rejected},
+          {"matched_used", counts.matched.used},
+          {"matched_rejected", counts.matched.rejected},
           {"depths_used", counts.depth.used},
           {"depths_rejected", counts.depth.rejected}};
 }

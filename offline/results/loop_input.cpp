@@ -11,8 +11,8 @@ OdometryFrame ToOdometryFrame(const PipelineFrame& frame, bool restarted) {
   result.t_ns = output.t_ns;
   result.restarted = restarted;
   result.T_O_B = output.state.T_W_B();
-  result.T_B_C = output.calibration.T_B_C;
-  result.camera = output.calibration.camera;
+  result.T_B_C = output.calibration.cameras[0].T_B_C;
+  result.camera = output.calibration.cameras[0].parameters;
   // An unknown covariance is zero, so that odometry edges get the minimum of OdometryNoise.
   if (output.uncertainty) result.covariance = output.uncertainty->pose;
   result.R_O_Manhattan = output.R_W_M;

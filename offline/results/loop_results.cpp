@@ -27,6 +27,7 @@ std::optional<MapBundle> BundleOf(const Config& config, const CameraModel& camer
   MapBundleOptions options;
   options.gravity_norm = sensor.gravity_norm;
   options.point_noise = config.estimator.point_noise / camera.FocalLength();
+  if (sensor.depth) options.depth_noise = sensor.depth->noise;
   return MapBundle(options);
 }
 
@@ -71,7 +72,7 @@ void LoopResults::Add(const PipelineFrame& frame) {
   const int newest = loops_.map().graph.size() - 1;
   poses_.push_back({frame.output.t_ns, T_O_B, newest});
   if (!closure.fix) return;
-  refined_camera_ = frame.output.calibration.camera;
+  refined_camera_ = frame.output.calibration.cameras[0].parameters;
   const int64_t t_ns = frame.output.t_ns;
   trajectory_.Row(t_ns) << FormatTumRow(t_ns, closure.fix->T_M_O.ToRigid() * T_O_B);
   if (const auto& known = frame.output.uncertainty) {
@@ -92,7 +93,9 @@ void LoopResults::Count(const LoopClosure& closure, double milliseconds) {
 }
 
 void LoopResults::Remember(const PipelineFrame& frame, const LoopClosure& closure) {
-  if (closure.is_keyframe) bundle_->AddKeyframe(loops_.map(), frame.output, frame.imu_ns);
+  if (closure.is_keyframe) {
+    bundle_->AddKeyframe(loops_.map(), frame.output, frame.imu_ns, frame.points);
+  }
   bundle_->AddLoops(loops_.map(), closure);
 }
 

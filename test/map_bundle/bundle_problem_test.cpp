@@ -22,8 +22,8 @@ BundleState SmallBundle() {
     LandmarkTrack& landmark = bundle.landmarks.emplace_back();
     landmark.p_M = {random.Uniform(-2, 2), random.Uniform(-1, 1), random.Uniform(3, 6)};
     for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d p_C = bundle.T_M_C(k).Inverse() * landmark.p_M;
-      landmark.observations.push_back({k, p_C.hnormalized(), /*again=*/false});
+      const Eigen::Vector3d p_C = bundle.T_M_C(k, 0).Inverse() * landmark.p_M;
+      landmark.observations.push_back({k, 0, p_C.hnormalized()});
     }
   }
   return bundle;
@@ -36,7 +36,7 @@ TEST(BundleProblemTest, KeepsUnobservableStatesAtTheirStart) {
   for (LandmarkTrack& landmark : bundle.landmarks) landmark.p_M += shift;
   bundle.keyframes[0].state.accel_bias() = Eigen::Vector3d::Constant(0.5);
   BundleOptions options;
-  options.noise = {1e-3, 1e-3};
+  options.noise = {1e-3, 1e-3, 1e-3};
 
   ASSERT_TRUE(AdjustBundle(ImuHistory(), options, &bundle));
 

@@ -26,6 +26,7 @@ struct DriftingFlightOptions {
   int far_points = 0;       // additional points, kilometers away
   int loaded = 0;           // number of keyframes of a loaded map, which has another T_B_C
   bool refused = false;     // the graph rejects all of its loops
+  bool stereo = false;      // a second camera observes the points as well
   uint64_t seed = 1;
 };
 
@@ -67,7 +68,9 @@ class DriftingFlight {
       map.keyframes.push_back(map_.keyframes[i]);
       const int64_t t_ns = ToNanoseconds(Seconds(number));
       for (; sample->t_ns <= t_ns; ++sample) bundle->AddImu(Told(*sample));
-      if (number >= options_.loaded) bundle->AddKeyframe(map, odometry_[i], Told_ns(t_ns));
+      if (number >= options_.loaded) {
+        bundle->AddKeyframe(map, odometry_[i], Told_ns(t_ns), frames_[i]);
+      }
       bundle->AddLoops(map, LoopsOf(number));
     }
   }
@@ -127,6 +130,8 @@ class DriftingFlight {
     keyframe.covariance = 1e-4 * (number + 1) * Matrix4d::Identity();
     const int visit = number / options_.keyframes_of_visit;
     const Rigid3d T_C_W = (truth.T_W_B * keyframe.T_B_C).Inverse();
+    const Rigid3d T_B_C1 = keyframe.T_B_C * Rigid3d(Eigen::Quaterniond::Identity(), {0.2, 0, 0});
+    PointFrame& frame = frames_.emplace_back();
     RecognizedPlace place;
     for (size_t i = 0; i < points_.size(); ++i) {
       const Eigen::Vector3d p_C = T_C_W * points_[i];
@@ -136,6 +141,11 @@ class DriftingFlight {
       corner.xy = (p_C.hnormalized() + Noise()).cast<float>();
       corner.p_O = in_O(points_[i]).cast<float>();
       SeeAgain(visit, i, corner, &place);
+      if (!options_.stereo) continue;
+      PointObservation& second = frame.points.emplace_back();
+      second.id = corner.track;
+      second.camera = 1;
+      second.xy = ((truth.T_W_B * T_B_C1).Inverse() * points_[i]).hnormalized() + Noise();
     }
     const int node = map_.graph.AddNode(keyframe.T_O_L());
     if (node > 0) {
@@ -149,6 +159,7 @@ class DriftingFlight {
     odometry.state.SetPose(keyframe.T_O_B);
     odometry.state.velocity() = options_.scale * (T_O_W.rotation() * truth.v_W);
     odometry.imu_noise = noise_;
+    odometry.calibration.cameras = {{{}, keyframe.T_B_C}, {{}, T_B_C1}};
     if (!place.observations.of_earlier.empty()) places_[node] = place;
   }
 
@@ -179,6 +190,7 @@ class DriftingFlight {
   std::vector<Eigen::Vector3d> points_;
   KeyframeMap map_;
   std::vector<EstimatorOutput> odometry_;
+  std::vector<PointFrame> frames_;  // observations by the second camera
   std::map<int, RecognizedPlace> places_;
 };
 

@@ -59,6 +59,18 @@ TEST(MapBundleTest, EstimatesTheObservationNoise) {
   EXPECT_NEAR(bundle.summary().noise.again, 3e-3, 1e-3);
 }
 
+TEST(MapBundleTest, ASecondCameraTellsTheScale) {
+  double one = 0, two = 0;
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    DriftingFlightOptions options;
+    options.seed = seed;
+    one += ErrorAfterAdjustment(options);
+    options.stereo = true;
+    two += ErrorAfterAdjustment(options);
+  }
+  EXPECT_LT(two, 0.9 * one);
+}
+
 TEST(MapBundleTest, ToleratesWrongMatches) {
   DriftingFlightOptions options;
   options.wrong_share = 0.2;

@@ -22,7 +22,7 @@ from evaluation.trajectory import read_trajectory  # noqa: E402
 SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
 SECONDS = 4
 # Counts of summary.json.
-USED = {"stereo": "right_used", "rig": "right_used", "depth": "depths_used"}
+USED = {"stereo": "matched_used", "rig": "matched_used", "depth": "depths_used"}
 
 
 class PairFlight(unittest.TestCase):

@@ -65,7 +65,7 @@ class PairTest(unittest.TestCase):
 
     def test_a_second_camera_reaches_the_estimator(self):
         self.play("stereo")
-        self.assert_used("right_used", "camera_id")
+        self.assert_used("matched_used", "camera_id")
 
     def test_depth_reaches_the_estimator(self):
         self.play("depth")

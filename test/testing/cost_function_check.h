@@ -14,8 +14,7 @@
 
 namespace plm_vins::testing {
 
-// One parameter block: size 7 is a pose, or a mounting if a test says so, 5 a line, all others a
-// vector space.
+// One parameter block: size 7 is a pose, 5 a line, all others a vector space.
 using Block = Eigen::VectorXd;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -25,11 +24,9 @@ inline int TangentSize(const Block& block) {
   return static_cast<int>(block.size());
 }
 
-inline Block BlockPlus(const Block& block, const Eigen::VectorXd& delta, bool is_mounting = false) {
+inline Block BlockPlus(const Block& block, const Eigen::VectorXd& delta) {
   Block moved = block;
-  if (is_mounting) {
-    MountingPlus(block.data(), delta.data(), moved.data());
-  } else if (block.size() == kPoseSize) {
+  if (block.size() == kPoseSize) {
     PosePlus(block.data(), delta.data(), moved.data());
   } else if (block.size() == kLineSize) {
     LinePlus(block.data(), delta.data(), moved.data());
@@ -54,11 +51,10 @@ Eigen::VectorXd Residual(const Cost& cost, const std::vector<Block>& blocks) {
 }
 
 // Expects that every Jacobian of `cost`, evaluated together and separately, is the derivative
-// through Plus, padded with zeros. `tolerance` is per entry. `mounting`: index of the block that is
-// one, or -1.
+// through Plus, padded with zeros. `tolerance` is per entry.
 template <typename Cost>
 void ExpectTangentJacobians(const Cost& cost, const std::vector<Block>& blocks, double tolerance,
-                            double step = 1e-6, int mounting = -1) {
+                            double step = 1e-6) {
   const int rows = cost.num_residuals();
   std::vector<RowMajorMatrix> jacobians;
   std::vector<double*> all;
@@ -76,10 +72,7 @@ void ExpectTangentJacobians(const Cost& cost, const std::vector<Block>& blocks, 
       return Residual(cost, moved);
     };
     const int tangent = TangentSize(blocks[i]);
-    const auto plus = [&](const Block& block, const Eigen::VectorXd& delta) {
-      return BlockPlus(block, delta, static_cast<int>(i) == mounting);
-    };
-    const Eigen::MatrixXd numeric = NumericJacobian(function, blocks[i], tangent, plus, step);
+    const Eigen::MatrixXd numeric = NumericJacobian(function, blocks[i], tangent, BlockPlus, step);
     EXPECT_MATRIX_NEAR(jacobians[i].leftCols(tangent), numeric, tolerance);
     EXPECT_TRUE(jacobians[i].rightCols(blocks[i].size() - tangent).isZero(0.0));
 

@@ -2,9 +2,14 @@
 // Estimation with a second camera or with measured depth.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "common/geometry/so3.h"
 #include "simulator/random.h"
 #include "test/vins_estimator/estimated_flight.h"
+#include "vins_estimator/estimator_options.h"
+#include "vins_estimator/initialization/initializer.h"
+#include "vins_estimator/window_odometry.h"
 
 namespace plm_vins {
 namespace {
@@ -25,21 +30,24 @@ simulator::FeatureSimulationOptions GentleFlight(uint64_t seed) {
 SimulatedFlight StereoFlight(uint64_t seed, double outlier_ratio = 0) {
   auto options = GentleFlight(seed);
   options.sensors.cameras = simulator::DefaultStereoSensors().cameras;
-  options.right_outlier_ratio = outlier_ratio;
+  options.second_outlier_ratio = outlier_ratio;
   return testing::WithoutLines(testing::SimulateFlight(options, /*skip=*/1));
+}
+
+void RemoveSecondCamera(PointFrame* frame) {
+  std::vector<PointObservation>& points = frame->points;
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [](const PointObservation& point) { return point.camera == 1; }),
+               points.end());
 }
 
 SimulatedFlight WithoutSecondCamera(SimulatedFlight flight) {
   flight.sensor.cameras.resize(1);
-  for (FrameMeasurement& frame : flight.frames) {
-    for (PointObservation& point : frame.points.points) {
-      point.right.reset();
-    }
-  }
+  for (FrameMeasurement& frame : flight.frames) RemoveSecondCamera(&frame.points);
   return flight;
 }
 
-Rigid3d Mounting(const SensorConfig& sensor) {
+Rigid3d SecondInFirst(const SensorConfig& sensor) {
   return sensor.cameras[0].T_B_C.Inverse() * sensor.cameras[1].T_B_C;
 }
 
@@ -117,12 +125,13 @@ TEST(EstimatorStereo, WrongMatchesCostLittle) {
 
 TEST(EstimatorStereo, EstimatesTheRotationOfTheSecondCamera) {
   SimulatedFlight flight = StereoFlight(1);
-  const Rigid3d truth = Mounting(flight.sensor);
+  const Rigid3d truth = SecondInFirst(flight.sensor);
   TurnSecondCamera({0.003, -0.003, 0.003}, &flight.sensor);
   const EstimatedFlight estimated = testing::Estimate(flight);
-  const Rigid3d found = estimated.outputs.back().calibration.T_C_C1.value();
+  const auto& cameras = estimated.outputs.back().calibration.cameras;
+  const Rigid3d found = cameras[0].T_B_C.Inverse() * cameras[1].T_B_C;
   EXPECT_LT(SO3Log(truth.rotation.conjugate() * found.rotation).norm(), 0.0006);
-  EXPECT_FALSE(estimated.outputs.back().second_camera.misfit_px);
+  EXPECT_FALSE(estimated.outputs.back().cameras.at(0).misfit_px);
 }
 
 // The second camera shakes against the first.
@@ -133,11 +142,11 @@ TEST(EstimatorStereo, MiscalibratedSecondCameraIsReportedAndCostsLittle) {
     for (FrameMeasurement& frame : flight.frames) {
       const Eigen::Vector2d shift(0.02 * random.Normal(), 0.02 * random.Normal());
       for (PointObservation& point : frame.points.points) {
-        if (point.right) *point.right += shift;
+        if (point.camera == 1) point.xy += shift;
       }
     }
     EstimatedFlight estimated = testing::Estimate(flight);
-    EXPECT_TRUE(estimated.outputs.back().second_camera.misfit_px);
+    EXPECT_TRUE(estimated.outputs.back().cameras.at(0).misfit_px);
     return estimated;
   });
   EXPECT_LT(error, 1.25 * MonocularError());
@@ -145,12 +154,43 @@ TEST(EstimatorStereo, MiscalibratedSecondCameraIsReportedAndCostsLittle) {
 
 TEST(EstimatorStereo, ReportsAWrongBaseline) {
   SimulatedFlight flight = StereoFlight(1);
-  Rigid3d mounting = Mounting(flight.sensor);
-  mounting.translation *= 1 / 1.05;
-  flight.sensor.cameras[1].T_B_C = flight.sensor.cameras[0].T_B_C * mounting;
-  const auto error = testing::Estimate(flight).outputs.back().second_camera.baseline;
+  Rigid3d T_C0_C1 = SecondInFirst(flight.sensor);
+  T_C0_C1.translation *= 1 / 1.05;
+  flight.sensor.cameras[1].T_B_C = flight.sensor.cameras[0].T_B_C * T_C0_C1;
+  const auto error = testing::Estimate(flight).outputs.back().cameras.at(0).baseline;
   ASSERT_TRUE(error);
   EXPECT_NEAR(error->error, 0.05, 0.03);
+}
+
+// Counts the images at standstill in which the depth of the scene is considered known.
+int ImagesWithKnownDepth(const SimulatedFlight& flight, double rest) {
+  Config config;
+  config.sensor = flight.sensor;
+  const EstimatorOptions options(config);
+  Initializer initializer(config);
+  WindowOdometry odometry(config, options);
+  int known = 0;
+  for (const FrameMeasurement& frame : flight.frames) {
+    if (ToSeconds(frame.t_ns - flight.frames.front().t_ns) > rest) break;
+    if (odometry.started()) {
+      odometry.Track(frame, std::nullopt, static_cast<int>(frame.points.points.size()));
+    } else if (const auto result = initializer.Add(frame)) {
+      odometry.Start(*result, UncertaintyOf(config.sensor, result->from_standstill));
+    }
+    known += odometry.MedianDepth().has_value();
+  }
+  return known;
+}
+
+// Noise triangulates points arbitrarily near until the body moves.
+TEST(EstimatorStereo, KnowsNoDepthAtRestIfTheSecondCameraDeliversNothing) {
+  auto options = GentleFlight(1);
+  options.sensors.cameras = simulator::DefaultStereoSensors().cameras;
+  options.trajectory.rest = 2;
+  SimulatedFlight flight = testing::SimulateFlight(options, /*skip=*/1);
+  EXPECT_GT(ImagesWithKnownDepth(flight, options.trajectory.rest), 5);
+  for (FrameMeasurement& frame : flight.frames) RemoveSecondCamera(&frame.points);
+  EXPECT_EQ(ImagesWithKnownDepth(flight, options.trajectory.rest), 0);
 }
 
 // Depths that are 2 % too long, and 30 ms late.

@@ -63,8 +63,8 @@ class LineWindow {
   // Replaces the optimization.
   void Refit() {
     for (auto& [id, landmark] : map_.lines.landmarks()) {
-      if (!landmark.triangulated || landmark.views.size() < 3) continue;
-      const auto observations = ObservationsOf(landmark.views, map_.window);
+      if (!landmark.triangulated || landmark.observations.size() < 3) continue;
+      const auto observations = PosedOfHostCamera(landmark, map_.window);
       const auto fit = FitLine(observations, kNoise, landmark.coordinates);
       if (fit) landmark.coordinates = fit->line;
     }

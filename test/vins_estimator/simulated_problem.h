@@ -15,10 +15,10 @@ inline void AddAll(SimulatedWindow* simulated, ProblemBuilder* builder) {
   builder->AddPrior();
   for (size_t i = 1; i < simulated->window.frames.size(); ++i) builder->AddMotion(i);
   for (auto& [id, landmark] : simulated->points.landmarks()) {
-    if (landmark.triangulated && landmark.views.size() > 1) builder->AddPoint(&landmark);
+    if (landmark.triangulated && landmark.observations.size() > 1) builder->AddPoint(&landmark);
   }
   for (auto& [id, landmark] : simulated->lines.landmarks()) {
-    if (landmark.triangulated && landmark.views.size() > 1) builder->AddLine(&landmark);
+    if (landmark.triangulated && landmark.observations.size() > 1) builder->AddLine(&landmark);
   }
 }
 

@@ -23,8 +23,9 @@ SimulatedWindow SimulateWindow(simulator::FeatureSimulationOptions options, size
   constexpr double kLineNoise = 1 / kSimulatedFocalLength;
   SimulatedWindow result(LocalMapOptions(kLineNoise, /*remember_lines=*/true));
   SlidingWindow& window = result.window;
-  window.SetExtrinsic(flight.sensor.cameras[0].T_B_C);
-  window.intrinsics = window.ray_intrinsics = flight.sensor.cameras[0].parameters.intrinsics();
+  window.cameras[0].SetExtrinsics(flight.sensor.cameras[0].T_B_C);
+  window.cameras[0].intrinsics = window.cameras[0].ray_intrinsics =
+      flight.sensor.cameras[0].parameters.intrinsics();
   std::vector<ImuSample> imu;
   for (size_t i = 0; i <= (frame_count - 1) * stride; ++i) {
     JoinImu(flight.frames[i].imu, &imu);

@@ -2,49 +2,44 @@
 #pragma once
 
 #include "vins_estimator/factors/factor.h"
-#include "vins_estimator/geometry/line_segment_view.h"
+#include "vins_estimator/factors/line_factor.h"
+#include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/geometry/ray_shift.h"
 
 namespace plm_vins {
 
-// Extends a corner's factor (PointFactor, PointHostFactor, or those of the second camera) by the
-// camera's intrinsics c as a variable: the corner is observed at xy + shift(c), which the residual
-// weight * (m_t - xy) depends on directly. Blocks: those of the inner factor, intrinsics (8).
-template <typename Inner>
+// Extends a PointFactor by the intrinsics c of the observing camera as a variable: the corner is
+// observed at xy + shift(c), which the residual weight * (m_t - xy) depends on directly. Blocks:
+// those of the inner factor, intrinsics (8).
 class PointIntrinsicsFactor final : public Factor {
  public:
-  static constexpr int kBlocks = Inner::kBlocks + 1;
-
-  // `weight` must be that of `factor`.
-  PointIntrinsicsFactor(const Inner& factor, const RayShift& shift, double weight);
+  PointIntrinsicsFactor(const PointFactor& factor, const RayShift& shift)
+      : Factor(2, factor.num_blocks() + 1), factor_(factor), shift_(shift) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  Inner factor_;
+  PointFactor factor_;
   RayShift shift_;
-  double weight_;
 };
 
-// Extends a line's factor (of either camera) by the camera's intrinsics c: the ends of
-// the segment are observed at xy + shift(c). Blocks: those of the inner factor, intrinsics (8).
-template <typename Inner>
+// Extends a LineFactor by the intrinsics c of the observing camera: the ends of the segment are
+// observed at xy + shift(c). Blocks: those of the inner factor, intrinsics (8).
 class LineIntrinsicsFactor final : public Factor {
  public:
-  static constexpr int kBlocks = Inner::kBlocks + 1;
-
-  using Weight = typename Inner::Weight;
-
-  LineIntrinsicsFactor(const LineSegmentView& view, const Weight& weight,
-                       const RayShift& start_shift, const RayShift& end_shift);
+  LineIntrinsicsFactor(const LineFactor& factor, const RayShift& start_shift,
+                       const RayShift& end_shift)
+      : Factor(2, factor.num_blocks() + 1),
+        factor_(factor),
+        start_shift_(start_shift),
+        end_shift_(end_shift) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  LineSegmentView view_;
-  Weight weight_;
+  LineFactor factor_;
   RayShift start_shift_, end_shift_;
 };
 

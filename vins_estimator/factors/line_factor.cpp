@@ -4,36 +4,23 @@
 #include "vins_estimator/factors/line_chain.h"
 
 namespace plm_vins {
-namespace {
-
-using Vector2Map = Eigen::Map<Eigen::Vector2d>;
-
-}  // namespace
 
 bool LineFactor::EvaluateWithNormal(double const* const* parameters, double* residuals,
                                     double** jacobians, Eigen::Vector2d* normal) const {
-  const LineChain chain(parameters, parameters[3]);
-  const Eigen::Vector3d& moment = chain.L_Ct.moment;
+  const int line_block = kind_.CountBlocks();
+  const double* line = parameters[line_block];
+  const LineChain chain(kind_, parameters, ToPlucker(line));
+  const Eigen::Vector3d& moment = chain.in_target().moment;
   Eigen::Vector2d distances;
-  Matrix23d d_r_d_mCt;
-  if (!EndPointDistances(view_, moment, &distances, &d_r_d_mCt)) return false;
-  Vector2Map{residuals} = weight_ * distances;
+  Eigen::Matrix<double, 2, 3> d_r_d_moment;
+  if (!EndPointDistances(segment_, moment, &distances, &d_r_d_moment)) return false;
+  Eigen::Map<Eigen::Vector2d>{residuals} = weights_.cwiseProduct(distances);
   if (normal != nullptr) *normal = moment.head<2>().normalized();
   if (jacobians == nullptr) return true;
-  chain.SetJacobians({weight_ * d_r_d_mCt, Matrix23d::Zero()}, jacobians, jacobians[3]);
-  return true;
-}
-
-bool LineHostFactor::EvaluateWithNormal(double const* const* parameters, double* residuals,
-                                        double** jacobians, Eigen::Vector2d* normal) const {
-  Eigen::Vector2d distances;
-  Matrix23d d_r_d_moment;
-  const PluckerLine line = ToPlucker(parameters[0]);
-  if (!EndPointDistances(view_, line.moment, &distances, &d_r_d_moment)) return false;
-  Vector2Map{residuals} = weight_ * distances;
-  if (normal != nullptr) *normal = line.moment.head<2>().normalized();
-  if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-  SetLineJacobian({weight_ * d_r_d_moment, Matrix23d::Zero()}, parameters[0], jacobians[0]);
+  const LineDerivative by_target{weights_.asDiagonal() * d_r_d_moment,
+                                 Eigen::Matrix<double, 2, 3>::Zero()};
+  const LineDerivative by_host = chain.SetJacobians<2>(by_target, jacobians);
+  if (jacobians[line_block]) SetLineJacobian(by_host, line, jacobians[line_block]);
   return true;
 }
 

@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+
+#include "vins_estimator/factors/camera_chain.h"
 #include "vins_estimator/factors/factor.h"
 #include "vins_estimator/geometry/line_segment_view.h"
-#include "vins_estimator/geometry/plucker.h"
 
 namespace plm_vins {
 
-// Reprojection of a line into a frame other than its host:
-//   r = weight * EndPointDistances(view, moment of T_B_C^-1 T_W_Bt^-1 T_W_Bh T_B_C L_Ch)
-// Blocks: pose of host (7), pose of target (7), extrinsics T_B_C (7), line (5). Jacobians follow
-// factors/manifolds.h.
-class LineFactor final : public SizedFactor<2, 7, 7, 7, kLineSize> {
+// Reprojection of a line into a camera that observes it:
+//   r = weights * EndPointDistances(segment, moment of T_Ct_Ch L_Ch), one by one.
+// Blocks: those of the chain T_Ct_Ch, line (5). Jacobians follow factors/manifolds.h.
+class LineFactor final : public Factor {
  public:
-  using Weight = double;
+  // `weights`: one over the standard deviations of start and end across the line, normalized.
+  LineFactor(const ChainKind& kind, const LineSegmentView& segment, const Eigen::Vector2d& weights)
+      : Factor(2, kind.CountBlocks() + 1), kind_(kind), segment_(segment), weights_(weights) {}
 
-  // `weight`: focal length over the standard deviation of an end point across the line, in pixels.
-  LineFactor(const LineSegmentView& view, double weight) : view_(view), weight_(weight) {}
+  const LineSegmentView& segment() const { return segment_; }
+  const Eigen::Vector2d& weights() const { return weights_; }
+  void set_segment(const LineSegmentView& segment) { segment_ = segment; }
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
@@ -28,29 +32,9 @@ class LineFactor final : public SizedFactor<2, 7, 7, 7, kLineSize> {
                           Eigen::Vector2d* normal) const;
 
  private:
-  LineSegmentView view_;
-  double weight_;
-};
-
-// Observation in the host frame: r = weight * EndPointDistances(view, moment of L_Ch). Block: line
-// (5).
-class LineHostFactor final : public SizedFactor<2, kLineSize> {
- public:
-  using Weight = double;
-
-  LineHostFactor(const LineSegmentView& view, double weight) : view_(view), weight_(weight) {}
-
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    return EvaluateWithNormal(parameters, residuals, jacobians, nullptr);
-  }
-  // See LineFactor.
-  bool EvaluateWithNormal(double const* const* parameters, double* residuals, double** jacobians,
-                          Eigen::Vector2d* normal) const;
-
- private:
-  LineSegmentView view_;
-  double weight_;
+  ChainKind kind_;
+  LineSegmentView segment_;
+  Eigen::Vector2d weights_;
 };
 
 }  // namespace plm_vins

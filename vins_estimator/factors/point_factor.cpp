@@ -9,31 +9,36 @@ namespace {
 
 using Vector2Map = Eigen::Map<Eigen::Vector2d>;
 
+// Without a chain, the observation is compared with the point's own coordinates.
+void EvaluateInHost(const Eigen::Vector2d& observed, double weight, const double* point,
+                    double* residuals, double* point_jacobian) {
+  Vector2Map{residuals} = weight * (Eigen::Vector2d(point[0], point[1]) - observed);
+  if (point_jacobian == nullptr) return;
+  Eigen::Map<Eigen::Matrix<double, 2, kPointSize, Eigen::RowMajor>> J(point_jacobian);
+  J << weight, 0, 0, 0, weight, 0;
+}
+
 }  // namespace
 
 bool PointFactor::Evaluate(double const* const* parameters, double* residuals,
                            double** jacobians) const {
-  const PointChain chain(parameters, parameters[4]);
-  if (!(chain.p_Ct.z() > kMinProjectedDepth)) return false;
-  const double td = parameters[3][0];
-  Vector2Map{residuals} = weight_ * (chain.p_Ct.hnormalized() - target_.At(td));
-  if (jacobians == nullptr) return true;
-  chain.SetJacobians<2>(ProjectionJacobian(chain.p_Ct, weight_), jacobians, jacobians[4]);
-  if (jacobians[3]) Vector2Map{jacobians[3]} = weight_ * target_.velocity;
-  return true;
-}
-
-bool PointHostFactor::Evaluate(double const* const* parameters, double* residuals,
-                               double** jacobians) const {
-  const double td = parameters[0][0];
-  const double* point = parameters[1];
-  Vector2Map{residuals} = weight_ * (Eigen::Vector2d(point[0], point[1]) - host_.At(td));
-  if (jacobians == nullptr) return true;
-  if (jacobians[0]) Vector2Map{jacobians[0]} = weight_ * host_.velocity;
-  if (jacobians[1]) {
-    Eigen::Map<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>> J(jacobians[1]);
-    J << weight_, 0, 0, 0, weight_, 0;
+  const int td_block = kind_.CountBlocks(), point_block = td_block + 1;
+  const double* point = parameters[point_block];
+  const Eigen::Vector2d observed = target_.At(parameters[td_block][0]);
+  double* const td_jacobian = jacobians ? jacobians[td_block] : nullptr;
+  double* const point_jacobian = jacobians ? jacobians[point_block] : nullptr;
+  if (td_jacobian) Vector2Map{td_jacobian} = weight_ * target_.velocity;
+  if (kind_.is_host()) {
+    EvaluateInHost(observed, weight_, point, residuals, point_jacobian);
+    return true;
   }
+  const PointChain chain(kind_, parameters, PointInHost(point));
+  const Eigen::Vector3d& p_Ct = chain.in_target();
+  if (!(p_Ct.z() > kMinProjectedDepth)) return false;
+  Vector2Map{residuals} = weight_ * (p_Ct.hnormalized() - observed);
+  if (jacobians == nullptr) return true;
+  const auto by_host = chain.SetJacobians<2>(ProjectionJacobian(p_Ct, weight_), jacobians);
+  if (point_jacobian) SetPointJacobian<2>(by_host, point, point_jacobian);
   return true;
 }
 

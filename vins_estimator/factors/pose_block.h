@@ -11,10 +11,12 @@ namespace plm_vins {
 
 // A pose variable with its rotation as a matrix.
 struct PoseBlock {
+  PoseBlock() = default;
   explicit PoseBlock(const double* values)
-      : p(values), R(Eigen::Map<const Eigen::Quaterniond>(values + 3).toRotationMatrix()) {}
+      : p(Eigen::Map<const Eigen::Vector3d>(values)),
+        R(Eigen::Map<const Eigen::Quaterniond>(values + 3).toRotationMatrix()) {}
 
-  Eigen::Map<const Eigen::Vector3d> p;
+  Eigen::Vector3d p;
   Eigen::Matrix3d R;
 };
 
@@ -26,13 +28,6 @@ void SetPoseJacobian(const Eigen::Matrix<double, kRows, 3>& d_r_d_p,
   J.template leftCols<3>() = d_r_d_p;
   J.template middleCols<3>(3) = d_r_d_theta;
   J.col(6).setZero();
-}
-
-// Writes the tangent Jacobian with respect to a mounting, padded with a column of zeros.
-inline void SetMountingJacobian(const Eigen::Matrix<double, 2, 3>& d_r_d_baseline,
-                                const Eigen::Matrix<double, 2, 3>& d_r_d_theta,
-                                const PoseBlock& T_C_C1, double* values) {
-  SetPoseJacobian<2>(d_r_d_baseline * BaselineByTangent(T_C_C1.p), d_r_d_theta, values);
 }
 
 }  // namespace plm_vins

@@ -16,7 +16,7 @@ namespace {
 // While the scene moves, the IMU alone confirms the standstill, whose biases drift [s].
 constexpr double kFollowing = 2;
 
-// Positions and motions of the corners that both images observe [px].
+// Positions and motions of the corners that a camera observes in both frames [px].
 struct CornerMotions {
   std::vector<Eigen::Vector2d> starts, motions;
   std::vector<Eigen::Vector2d> ray_motions;  // normalized
@@ -24,7 +24,7 @@ struct CornerMotions {
 
 CornerMotions MotionsBetween(const PointFrame& from, const PointFrame& to) {
   CornerMotions result;
-  for (const CommonPoint& point : CommonPoints(from, to)) {
+  for (const CommonPoint& point : CommonPointsOfOneCamera(from, to)) {
     result.starts.push_back(point.first->uv_px);
     result.motions.push_back(point.second->uv_px - point.first->uv_px);
     result.ray_motions.push_back(point.second->xy - point.first->xy);

@@ -25,7 +25,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 double Angle(const Eigen::Quaterniond& q) { return SO3Log(q).norm(); }
 
-// Returns the matrix M with M q = R_B0_B1 q - q R_C0_C1, quaternions as (x, y, z, w).
+// Returns the matrix M with M q = R_B0_B1 q - q R_then_now, quaternions as (x, y, z, w).
 Eigen::Matrix4d Constraint(const RotationPair& pair) {
   // Chooses w >= 0 for both, since rotations are below 180 deg; otherwise they could have opposite
   // signs.
@@ -33,7 +33,7 @@ Eigen::Matrix4d Constraint(const RotationPair& pair) {
     if (q.w() < 0) q.coeffs() = -q.coeffs();
     return q;
   };
-  const Eigen::Quaterniond b = positive(pair.R_B0_B1), c = positive(pair.R_C0_C1);
+  const Eigen::Quaterniond b = positive(pair.R_B0_B1), c = positive(pair.R_then_now);
   const Eigen::Vector3d sum = b.vec() + c.vec(), difference = b.vec() - c.vec();
   Eigen::Matrix4d M = (b.w() - c.w()) * Eigen::Matrix4d::Identity();
   M.topLeftCorner<3, 3>() += Skew(sum);
@@ -72,13 +72,13 @@ LinearSolution SolveLinear(const std::vector<RotationPair>& pairs) {
   weights.reserve(pairs.size());
   for (const RotationPair& pair : pairs) {
     weights.push_back(
-        GemanMcClureWeight(Angle(pair.R_B0_B1) - Angle(pair.R_C0_C1), kLinearTolerance));
+        GemanMcClureWeight(Angle(pair.R_B0_B1) - Angle(pair.R_then_now), kLinearTolerance));
   }
   LinearSolution solution = SolveLinear(pairs, weights);
   for (int k = 0; k < kLinearIterations; ++k) {
     for (size_t i = 0; i < pairs.size(); ++i) {
       const Eigen::Quaterniond seen =
-          solution.R_B_C * pairs[i].R_C0_C1 * solution.R_B_C.conjugate();
+          solution.R_B_C * pairs[i].R_then_now * solution.R_B_C.conjugate();
       weights[i] = GemanMcClureWeight(Angle(pairs[i].R_B0_B1.conjugate() * seen), kLinearTolerance);
     }
     solution = SolveLinear(pairs, weights);
@@ -126,7 +126,7 @@ void Refiner::Step(double tolerance) {
   for (const RotationPair& pair : pairs_) {
     const Eigen::Matrix3d d_turn_d_bias = pair.duration * SO3RightJacobian(SO3Log(pair.R_B0_B1));
     const Eigen::Quaterniond R_B0_B1 = pair.R_B0_B1 * SO3Exp(-d_turn_d_bias * bias_);
-    const Eigen::Quaterniond seen = R_B_C_ * pair.R_C0_C1 * R_B_C_.conjugate();
+    const Eigen::Quaterniond seen = R_B_C_ * pair.R_then_now * R_B_C_.conjugate();
     const Eigen::Vector3d residual = SO3Log(R_B0_B1.conjugate() * seen) / pair.deviation;
     Eigen::Matrix<double, 3, 6> J;
     J << seen.toRotationMatrix().transpose() - Eigen::Matrix3d::Identity(), d_turn_d_bias;

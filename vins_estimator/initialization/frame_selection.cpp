@@ -28,12 +28,12 @@ std::vector<double> Progress(const std::deque<FrameMeasurement>& frames) {
 }  // namespace
 
 int CountCommonPoints(const PointFrame& first, const PointFrame& second) {
-  return static_cast<int>(CommonPoints(first, second).size());
+  return static_cast<int>(CommonPointsOfOneCamera(first, second).size());
 }
 
 double MedianFlow(const PointFrame& first, const PointFrame& second) {
   std::vector<double> ways;
-  for (const CommonPoint& point : CommonPoints(first, second)) {
+  for (const CommonPoint& point : CommonPointsOfOneCamera(first, second)) {
     ways.push_back((point.second->xy - point.first->xy).norm());
   }
   return Median(std::move(ways));

@@ -94,7 +94,7 @@ class Builder {
   std::optional<Structure> Build(std::string* reason);
 
  private:
-  Eigen::Vector3d Ray(const ViewObservation& o) const {
+  Eigen::Vector3d Ray(const Track::Observation& o) const {
     return R_G_C_[o.view] * o.xy.homogeneous().normalized();
   }
   Eigen::Vector3d InCamera(int view, const Eigen::Vector3d& p_G) const {
@@ -127,7 +127,7 @@ std::pair<int, int> Builder::BestPair() const {
   for (const Track& track : tracks_) {
     for (size_t i = 0; i < track.observations.size(); ++i) {
       for (size_t j = i + 1; j < track.observations.size(); ++j) {
-        const ViewObservation &a = track.observations[i], &b = track.observations[j];
+        const Track::Observation &a = track.observations[i], &b = track.observations[j];
         score(a.view, b.view) += std::min(1e-9 + Ray(a).cross(Ray(b)).norm(), kParallaxCap);
       }
     }
@@ -145,24 +145,24 @@ bool Builder::Start(std::string* reason) {
               std::to_string(kMinCommonPoints);
     return false;
   }
-  const Eigen::Quaterniond R_C1_C0 = R_G_C_[second].conjugate() * R_G_C_[first];
-  const double parallax_px = options_.focal_length * MedianParallax(correspondences, R_C1_C0);
+  const Eigen::Quaterniond R_now_then = R_G_C_[second].conjugate() * R_G_C_[first];
+  const double parallax_px = options_.focal_length * MedianParallax(correspondences, R_now_then);
   if (parallax_px < options_.min_parallax_px) {
     *reason =
         Format("too little parallax: %.1f px of %.1f px", parallax_px, options_.min_parallax_px);
     return false;
   }
-  const auto pose = EstimateRelativePose(correspondences, R_C1_C0, noise_, reason);
+  const auto pose = EstimateRelativePose(correspondences, R_now_then, noise_, reason);
   if (!pose) return false;
   Place(first, Eigen::Vector3d::Zero());
-  Place(second, -(R_G_C_[second] * pose->t_C1_C0));
+  Place(second, -(R_G_C_[second] * pose->t_now_then));
   return true;
 }
 
 std::optional<Eigen::Vector3d> Builder::TriangulateTrack(const Track& track) const {
   std::vector<Line> lines;
   double widest = 0;
-  for (const ViewObservation& o : track.observations) {
+  for (const Track::Observation& o : track.observations) {
     if (!posed_[o.view]) continue;
     lines.push_back({structure_.p_G_C[o.view], Ray(o)});
     for (const Line& line : lines) {
@@ -172,7 +172,7 @@ std::optional<Eigen::Vector3d> Builder::TriangulateTrack(const Track& track) con
   if (widest < kMinTriangulationSigmas * noise_) return std::nullopt;
   auto point = IntersectLines(lines, noise_);
   if (!point) return std::nullopt;
-  for (const ViewObservation& o : track.observations) {
+  for (const Track::Observation& o : track.observations) {
     if (posed_[o.view] && InCamera(o.view, *point).z() <= kMinDepth) return std::nullopt;
   }
   return point;
@@ -192,7 +192,7 @@ int Builder::NextView() const {
   std::vector<int> seen(posed_.size(), 0);
   for (size_t i = 0; i < tracks_.size(); ++i) {
     if (!structure_.p_G[i]) continue;
-    for (const ViewObservation& o : tracks_[i].observations) seen[o.view] += !posed_[o.view];
+    for (const Track::Observation& o : tracks_[i].observations) seen[o.view] += !posed_[o.view];
   }
   const auto most = std::max_element(seen.begin(), seen.end());
   return *most < kMinPointsToResect ? -1 : static_cast<int>(most - seen.begin());
@@ -202,7 +202,7 @@ bool Builder::Resect(int view) {
   std::vector<Line> lines;
   for (size_t i = 0; i < tracks_.size(); ++i) {
     if (!structure_.p_G[i]) continue;
-    for (const ViewObservation& o : tracks_[i].observations) {
+    for (const Track::Observation& o : tracks_[i].observations) {
       if (o.view == view) lines.push_back({*structure_.p_G[i], Ray(o)});
     }
   }
@@ -216,7 +216,7 @@ bool Builder::AdjustBundle() {
   ceres::Problem problem;
   for (size_t i = 0; i < tracks_.size(); ++i) {
     if (!structure_.p_G[i]) continue;
-    for (const ViewObservation& o : tracks_[i].observations) {
+    for (const Track::Observation& o : tracks_[i].observations) {
       problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PositionCost, 2, 3, 3>(
                                    new PositionCost(R_G_C_[o.view], o.xy, noise_)),
                                new ceres::CauchyLoss(1.0), structure_.p_G_C[o.view].data(),
@@ -237,7 +237,7 @@ bool Builder::AdjustBundle() {
 
 // Returns whether all observations of the track are inliers.
 bool Builder::Fits(const Track& track, const Eigen::Vector3d& p_G) const {
-  for (const ViewObservation& o : track.observations) {
+  for (const Track::Observation& o : track.observations) {
     const Eigen::Vector3d p_C = InCamera(o.view, p_G);
     if (p_C.z() <= 0) return false;
     const double squared = (p_C.hnormalized() - o.xy).squaredNorm();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/config/stereo_pairs.h"
 #include "common/format.h"
 #include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/initialization/frame_selection.h"
@@ -32,16 +33,26 @@ constexpr double kAttemptInterval = 0.125;  // an attempt takes as long as sever
 constexpr double kScaleDeviationPerSecond = 0.015;  // relative [1/s]
 constexpr double kMaxScaleDeviation = 0.075;
 
-// Returns whether the depth of points is measured in single images.
-bool HasDepth(const SensorConfig& sensor) { return sensor.cameras.size() > 1 || sensor.depth; }
+// Returns whether the depth of points is measured in single frames.
+bool HasDepth(const SensorConfig& sensor) { return sensor.depth || !StereoPairs(sensor).empty(); }
 
-// If initialization with depths fails, they may be wrong, so the first window ignores them.
-void ForgetDepths(std::vector<FrameMeasurement>* frames) {
+// Returns the camera with the most points in an image.
+int BusiestCamera(const PointFrame& frame, size_t cameras) {
+  std::vector<int> points(cameras, 0);
+  for (const PointObservation& point : frame.points) ++points[point.camera];
+  return static_cast<int>(std::max_element(points.begin(), points.end()) - points.begin());
+}
+
+// Drops measured depths, and all observations by other cameras: if initialization with depths
+// fails, they may be wrong, so the first window ignores them.
+void KeepOnly(int camera, std::vector<FrameMeasurement>* frames) {
   for (FrameMeasurement& frame : *frames) {
-    for (PointObservation& point : frame.points.points) {
-      point.right.reset();
-      point.depth.reset();
-    }
+    std::vector<PointObservation>& points = frame.points.points;
+    points.erase(
+        std::remove_if(points.begin(), points.end(),
+                       [camera](const PointObservation& point) { return point.camera != camera; }),
+        points.end());
+    for (PointObservation& point : points) point.depth.reset();
   }
 }
 
@@ -68,10 +79,10 @@ StandstillDetector::Options QuietOptions() {
 Initializer::Initializer(const Config& config)
     : sensor_(config.sensor),
       point_noise_px_(config.estimator.point_noise),
+      has_depth_(HasDepth(config.sensor)),
       max_frames_(std::min<size_t>(kMaxFrames, config.estimator.window_size + 1)),
       standstill_(config.sensor.imu_noise,
-                  StandstillOptions(HasDepth(config.sensor) ? kStereoStandstillDuration
-                                                            : kStandstillDuration)),
+                  StandstillOptions(has_depth_ ? kStereoStandstillDuration : kStandstillDuration)),
       quiet_standstill_(config.sensor.imu_noise, QuietOptions()) {
   if (sensor_.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
     const double focal_length = CameraModel::Create(sensor_.cameras[0].parameters)->FocalLength();
@@ -85,14 +96,18 @@ void Initializer::KeepRotation(const Initializer& other) {
   calibrator_.reset();
 }
 
-// Moves the second camera as well, which is mounted on the first.
+// Rotates the rig: other cameras keep their poses in the first one.
 void Initializer::SetRotation(const Eigen::Quaterniond& R_B_C) {
-  const Rigid3d T_B_C(R_B_C, sensor_.cameras[0].T_B_C.translation);
-  if (sensor_.cameras.size() > 1) {
-    Rigid3d& T_B_C1 = sensor_.cameras[1].T_B_C;
-    T_B_C1 = T_B_C * sensor_.cameras[0].T_B_C.Inverse() * T_B_C1;
-  }
-  sensor_.cameras[0].T_B_C = T_B_C;
+  const Rigid3d T_B_C0 = sensor_.cameras[0].T_B_C;
+  const Rigid3d move = Rigid3d(R_B_C, T_B_C0.translation) * T_B_C0.Inverse();
+  for (CameraSensor& camera : sensor_.cameras) camera.T_B_C = move * camera.T_B_C;
+  sensor_.cameras[0].T_B_C = {R_B_C, T_B_C0.translation};
+}
+
+std::vector<Rigid3d> Initializer::Extrinsics() const {
+  std::vector<Rigid3d> T_B_C;
+  for (const CameraSensor& camera : sensor_.cameras) T_B_C.push_back(camera.T_B_C);
+  return T_B_C;
 }
 
 void Initializer::StartOver(const std::string& reason) {
@@ -164,7 +179,7 @@ std::optional<InitializationResult> Initializer::TryStandstill(int64_t since_ns)
   reason_.clear();
   return InitializationResult{{{buffer_.back(), *state}},
                               true,
-                              sensor_.cameras[0].T_B_C,
+                              Extrinsics(),
                               std::abs(ExcessOfGravity(samples, sensor_.gravity_norm))};
 }
 
@@ -179,10 +194,9 @@ bool Initializer::MayTryMotion(bool stereo) {
   return false;
 }
 
-// If a start with the second camera or depth fails, one without them may succeed.
+// If a start with several cameras or depth fails, one camera alone may succeed.
 std::optional<InitializationResult> Initializer::TryMotion() {
-  const bool has_depth = HasDepth(sensor_);
-  if (!MayTryMotion(has_depth)) return std::nullopt;
+  if (!MayTryMotion(has_depth_)) return std::nullopt;
   const int64_t now_ns = buffer_.back().t_ns;
   if (last_attempt_ns_ && ToSeconds(now_ns - *last_attempt_ns_) < kAttemptInterval) {
     return std::nullopt;
@@ -191,14 +205,15 @@ std::optional<InitializationResult> Initializer::TryMotion() {
   MotionInitializerOptions options;
   options.max_scale_deviation =
       std::min(kMaxScaleDeviation, kScaleDeviationPerSecond * ToSeconds(now_ns - *start_ns_));
-  options.stereo = has_depth;
+  options.stereo = has_depth_;
+  options.camera = BusiestCamera(buffer_.back().points, sensor_.cameras.size());
   std::vector<FrameMeasurement> frames = JoinFrames(buffer_, SelectFrames(buffer_, max_frames_));
   auto states = InitializeFromMotion(frames, sensor_, point_noise_px_, options, &reason_);
-  if (!states && has_depth) {
+  if (!states && has_depth_) {
     const std::string why = reason_;
     options.stereo = false;
     if (MayTryMotion(options.stereo)) {
-      ForgetDepths(&frames);
+      KeepOnly(options.camera, &frames);
       states = InitializeFromMotion(frames, sensor_, point_noise_px_, options, &reason_);
     }
     reason_ = why;
@@ -206,7 +221,7 @@ std::optional<InitializationResult> Initializer::TryMotion() {
   if (!states) return std::nullopt;
   reason_.clear();
   InitializationResult result;
-  result.T_B_C = sensor_.cameras[0].T_B_C;
+  result.T_B_C = Extrinsics();
   for (size_t i = 0; i < frames.size(); ++i) {
     result.frames.push_back({std::move(frames[i]), (*states)[i]});
   }

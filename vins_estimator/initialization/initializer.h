@@ -26,15 +26,15 @@ struct InitialFrame {
 struct InitializationResult {
   std::vector<InitialFrame> frames;  // oldest first, the last one is the newest image
   bool from_standstill = false;
-  Rigid3d T_B_C;          // calibrated or configured
+  std::vector<Rigid3d> T_B_C;  // by camera, calibrated or configured
   double accel_bias = 0;  // lower bound on its size, from the norm of gravity at standstill [m/s^2]
 };
 
 // Initializes the estimator: from standstill once the body has stood still for 0.75 s, or for half
 // a second if the IMU shows its noise alone; otherwise from motion once at least 1.5 s of images
-// make gravity, velocity and scale observable. With a second camera or measured depth, 0.25 s of
-// standstill or 0.3 s of motion suffice. World: z up, origin and zero heading at the first frame of
-// the result. If the camera's rotation has to be calibrated, this comes first and requires
+// make gravity, velocity and scale observable. With overlapping cameras or measured depth, 0.25 s
+// of standstill or 0.3 s of motion suffice. World: z up, origin and zero heading at the first frame
+// of the result. If the camera's rotation has to be calibrated, this comes first and requires
 // rotations about at least two axes. While waiting, reason() states why. Stores at most three
 // seconds of images. Its result is deterministic.
 class Initializer {
@@ -62,12 +62,14 @@ class Initializer {
   void Append(const FrameMeasurement& measurement);
   void CalibrateRotation();
   void SetRotation(const Eigen::Quaterniond& R_B_C);
+  std::vector<Rigid3d> Extrinsics() const;
   std::optional<InitializationResult> TryStandstill(int64_t since_ns);
   std::optional<InitializationResult> TryMotion();
   bool MayTryMotion(bool stereo);
 
   SensorConfig sensor_;  // with the calibrated rotation of the camera
   double point_noise_px_;
+  bool has_depth_;  // overlapping cameras or depth images
   size_t max_frames_;
   StandstillDetector standstill_;
   StandstillDetector quiet_standstill_;

@@ -16,17 +16,7 @@ namespace {
 
 constexpr double kStereoScaleDeviation = 0.01;
 constexpr double kMaxOutlierShare = 0.2;    // share of observations, with stereo or depth
-constexpr double kMinStereoAngle_px = 1.0;  // between the rays of a point in both cameras
-
-// Drops the observations in the second camera and the measured depths.
-void ForgetDepth(std::vector<Track>* tracks) {
-  for (Track& track : *tracks) {
-    for (ViewObservation& observation : track.observations) {
-      observation.right.reset();
-      observation.depth.reset();
-    }
-  }
-}
+constexpr double kMinStereoAngle_px = 1.0;  // between the rays of a point in two cameras
 
 // One attempt at initialization, step by step.
 class Attempt {
@@ -44,7 +34,7 @@ class Attempt {
   bool Reconstruct();
   bool ReconstructInStereo();
   void AdoptStereo(const StereoStructure& stereo);
-  Rigid3d T_C_C1() const;  // identity without a second camera
+  std::vector<Rigid3d> Extrinsics() const;
   bool Align();
   void SetStates();
   bool Adjust();
@@ -54,6 +44,7 @@ class Attempt {
 
   const std::vector<FrameMeasurement>& frames_;
   const SensorConfig& sensor_;
+  Rigid3d T_B_C_;  // of the camera that starts
   double focal_length_;
   double noise_px_;
   MotionInitializerOptions options_;
@@ -73,7 +64,8 @@ Attempt::Attempt(const std::vector<FrameMeasurement>& frames, const SensorConfig
                  std::string* reason)
     : frames_(frames),
       sensor_(sensor),
-      focal_length_(CameraModel::Create(sensor.cameras[0].parameters)->FocalLength()),
+      T_B_C_(sensor.cameras[options.camera].T_B_C),
+      focal_length_(CameraModel::Create(sensor.cameras[options.camera].parameters)->FocalLength()),
       noise_px_(point_noise_px),
       options_(options),
       reason_(reason) {
@@ -81,7 +73,7 @@ Attempt::Attempt(const std::vector<FrameMeasurement>& frames, const SensorConfig
   views.reserve(frames.size());
   for (const FrameMeasurement& frame : frames) views.push_back(&frame.points);
   tracks_ = CollectTracks(views);
-  if (!options.stereo) ForgetDepth(&tracks_);
+  if (!options.stereo) tracks_ = OfCamera(options.camera, tracks_);
   for (size_t i = 0; i + 1 < frames.size(); ++i) {
     preintegrations_.emplace_back(sensor.imu_noise, ImuBias{});
     for (const ImuSample& sample : frames[i + 1].imu) preintegrations_.back().Append(sample);
@@ -91,13 +83,13 @@ Attempt::Attempt(const std::vector<FrameMeasurement>& frames, const SensorConfig
 // Returns the rotation of the body over the interval, measured by the camera.
 std::optional<RotationMeasurement> Attempt::MeasureRotation(int interval) const {
   const Preintegration& imu = preintegrations_[interval];
-  const Eigen::Quaterniond R_B_C = sensor_.cameras[0].T_B_C.rotation;
-  const Eigen::Quaterniond R_C1_C0 = R_B_C.conjugate() * imu.delta_q().conjugate() * R_B_C;
+  const Eigen::Quaterniond R_B_C = T_B_C_.rotation;
+  const Eigen::Quaterniond R_now_then = R_B_C.conjugate() * imu.delta_q().conjugate() * R_B_C;
   const auto pose = EstimateRelativePose(FindCorrespondences(tracks_, interval, interval + 1),
-                                         R_C1_C0, noise_px_ / focal_length_, reason_);
+                                         R_now_then, noise_px_ / focal_length_, reason_);
   if (!pose) return std::nullopt;
   const Eigen::Matrix3d R = R_B_C.toRotationMatrix();
-  return RotationMeasurement{&imu, R_B_C * pose->R_C1_C0.conjugate() * R_B_C.conjugate(),
+  return RotationMeasurement{&imu, R_B_C * pose->R_now_then.conjugate() * R_B_C.conjugate(),
                              R * pose->rotation_information * R.transpose()};
 }
 
@@ -132,40 +124,34 @@ void Attempt::ChainRotations() {
 
 bool Attempt::Reconstruct() {
   std::vector<Eigen::Quaterniond> R_G_C;
-  for (const Eigen::Quaterniond& R_G_B : R_G_B_)
-    R_G_C.push_back(R_G_B * sensor_.cameras[0].T_B_C.rotation);
+  for (const Eigen::Quaterniond& R_G_B : R_G_B_) R_G_C.push_back(R_G_B * T_B_C_.rotation);
   const GlobalSfmOptions options{focal_length_, noise_px_, options_.min_parallax_px};
   const auto structure = ReconstructStructure(tracks_, R_G_C, options, reason_);
   if (structure) structure_ = *structure;
   return structure.has_value();
 }
 
-Rigid3d Attempt::T_C_C1() const {
-  if (sensor_.cameras.size() == 1) return {};
-  return sensor_.cameras[0].T_B_C.Inverse() * sensor_.cameras[1].T_B_C;
+std::vector<Rigid3d> Attempt::Extrinsics() const {
+  std::vector<Rigid3d> T_B_C;
+  for (const CameraSensor& camera : sensor_.cameras) T_B_C.push_back(camera.T_B_C);
+  return T_B_C;
 }
 
-// Replaces EstimateBias() and Reconstruct() if points have a depth in single images.
+// Replaces EstimateBias() and Reconstruct() if points have a depth in single frames.
 bool Attempt::ReconstructInStereo() {
   ChainRotations();  // from the biased gyroscope, as initial values
-  std::vector<Eigen::Quaterniond> R_G_C;
-  for (const Eigen::Quaterniond& R_G_B : R_G_B_)
-    R_G_C.push_back(R_G_B * sensor_.cameras[0].T_B_C.rotation);
-  const StereoStructureOptions options{T_C_C1(), noise_px_ / focal_length_,
+  const StereoStructureOptions options{Extrinsics(), noise_px_ / focal_length_,
                                        kMinStereoAngle_px / focal_length_};
-  const auto stereo = ReconstructFromStereo(tracks_, R_G_C, options, reason_);
+  const auto stereo = ReconstructFromStereo(tracks_, R_G_B_, options, reason_);
   if (!stereo) return false;
-  const Eigen::Quaterniond R_B_C = sensor_.cameras[0].T_B_C.rotation;
   std::vector<RotationMeasurement> rotations;
   for (size_t i = 0; i < preintegrations_.size(); ++i) {
     // Two errors of about equal size have half the information of one.
     const Eigen::Matrix3d information =
         0.25 * (stereo->rotation_information[i] + stereo->rotation_information[i + 1]);
-    const Eigen::Quaterniond R_C0_C1 =
-        stereo->T_G_C[i].rotation.conjugate() * stereo->T_G_C[i + 1].rotation;
-    const Eigen::Matrix3d R = R_B_C.toRotationMatrix();
-    rotations.push_back({&preintegrations_[i], R_B_C * R_C0_C1 * R_B_C.conjugate(),
-                         R * information * R.transpose()});
+    const Eigen::Quaterniond R_B0_B1 =
+        stereo->T_G_B[i].rotation.conjugate() * stereo->T_G_B[i + 1].rotation;
+    rotations.push_back({&preintegrations_[i], R_B0_B1, information});
   }
   if (!SetGyroBias(rotations)) return false;
   ChainRotations();
@@ -173,14 +159,16 @@ bool Attempt::ReconstructInStereo() {
   return true;
 }
 
-// Takes over positions and points from the frame of one of the cameras.
+// Takes over positions and points from the frame S of one of the views.
 void Attempt::AdoptStereo(const StereoStructure& stereo) {
-  const Rigid3d& T_S_C0 = stereo.T_G_C.front();
-  const Eigen::Quaterniond R_G_S = sensor_.cameras[0].T_B_C.rotation * T_S_C0.rotation.conjugate();
+  const Eigen::Quaterniond R_G_S = stereo.T_G_B.front().rotation.conjugate();
+  const Eigen::Vector3d origin_S = (stereo.T_G_B.front() * T_B_C_).translation;
   const auto in_G = [&](const Eigen::Vector3d& p_S) -> Eigen::Vector3d {
-    return R_G_S * (p_S - T_S_C0.translation);
+    return R_G_S * (p_S - origin_S);
   };
-  for (const Rigid3d& T_S_C : stereo.T_G_C) structure_.p_G_C.push_back(in_G(T_S_C.translation));
+  for (const Rigid3d& T_S_B : stereo.T_G_B) {
+    structure_.p_G_C.push_back(in_G((T_S_B * T_B_C_).translation));
+  }
   structure_.p_G.resize(tracks_.size());
   for (size_t i = 0; i < tracks_.size(); ++i) {
     if (stereo.p_G[i]) structure_.p_G[i] = in_G(*stereo.p_G[i]);
@@ -192,8 +180,7 @@ bool Attempt::Align() {
   for (size_t i = 0; i < R_G_B_.size(); ++i) views.push_back({R_G_B_[i], structure_.p_G_C[i]});
   std::vector<const Preintegration*> preintegrations;
   for (const Preintegration& imu : preintegrations_) preintegrations.push_back(&imu);
-  AlignmentOptions options{sensor_.cameras[0].T_B_C, sensor_.gravity_norm,
-                           sensor_.accel_bias_deviation};
+  AlignmentOptions options{T_B_C_, sensor_.gravity_norm, sensor_.accel_bias_deviation};
   if (options_.stereo) options.scale_deviation = kStereoScaleDeviation;
   const auto alignment = AlignVisualInertial(views, preintegrations, options, reason_);
   if (alignment) alignment_ = *alignment;
@@ -207,10 +194,10 @@ void Attempt::SetStates() {
   const ImuBias bias{alignment_.accel_bias, preintegrations_.front().linearization_bias().gyro};
   states_.resize(frames_.size());
   for (size_t i = 0; i < frames_.size(); ++i) {
-    const Eigen::Quaterniond R_G_C = R_G_B_[i] * sensor_.cameras[0].T_B_C.rotation;
+    const Eigen::Quaterniond R_G_C = R_G_B_[i] * T_B_C_.rotation;
     const Rigid3d T_W_C(R_W_G * R_G_C, R_W_G * (alignment_.scale * structure_.p_G_C[i]));
     states_[i].t_ns = frames_[i].t_ns;
-    states_[i].SetPose(T_W_C * sensor_.cameras[0].T_B_C.Inverse());
+    states_[i].SetPose(T_W_C * T_B_C_.Inverse());
     states_[i].velocity() = R_W_G * alignment_.velocity_G[i];
     states_[i].SetBias(bias);
   }
@@ -261,9 +248,8 @@ bool Attempt::CheckAdjustment(const VisualInertialBundle& bundle) {
 }
 
 bool Attempt::Adjust() {
-  VisualInertialBundleOptions options{sensor_.cameras[0].T_B_C, sensor_.gravity_norm,
-                                      noise_px_ / focal_length_, sensor_.accel_bias_deviation};
-  options.T_C_C1 = T_C_C1();
+  VisualInertialBundleOptions options{Extrinsics(), sensor_.gravity_norm, noise_px_ / focal_length_,
+                                      sensor_.accel_bias_deviation};
   if (sensor_.depth) options.depth_noise = sensor_.depth->noise;
   if (!options_.stereo) options.max_scale_deviation = options_.max_scale_deviation;
   const auto bundle =

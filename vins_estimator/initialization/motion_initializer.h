@@ -18,14 +18,15 @@ struct MotionInitializerOptions {
   double max_imu_rms = 3;             // in standard deviations of the preintegrated measurements
   double max_accel_bias = 1.0;        // [m/s^2]
   double max_gyro_bias = 0.5;         // [rad/s]
-  bool stereo =
-      false;  // uses the second camera or measured depth: needs neither parallax nor acceleration
+  int camera = 0;                     // whose points alone are used, unless `stereo`
+  // Uses overlapping cameras or measured depth: needs neither parallax nor acceleration.
+  bool stereo = false;
 };
 
 // Initializes the states of a few images in motion from their points and IMU samples alone:
 // gyroscope bias from relative poses, structure up to scale, alignment (velocities,
-// gravity, scale), visual-inertial bundle adjustment, checks. With a second camera,
-// relative poses and structure are those of stereo odometry, and the scale is known.
+// gravity, scale), visual-inertial bundle adjustment, checks. With overlapping
+// cameras, relative poses and structure are those of stereo odometry, and the scale is known.
 // `frames[i + 1].imu` is from frame i to frame i + 1; `frames[0].imu` is not used. World:
 // origin and zero heading at the first frame. Returns nullopt, with the reason, if a step
 // or check fails.

@@ -66,8 +66,8 @@ EpipolarResidual Evaluate(const Correspondence& c, const Eigen::Matrix3d& R,
 class PoseRefiner {
  public:
   PoseRefiner(const std::vector<Correspondence>& correspondences,
-              const Eigen::Quaterniond& R_C1_C0_gyro, double noise)
-      : correspondences_(correspondences), R_C1_C0_gyro_(R_C1_C0_gyro), noise_(noise) {}
+              const Eigen::Quaterniond& R_now_then_gyro, double noise)
+      : correspondences_(correspondences), R_now_then_gyro_(R_now_then_gyro), noise_(noise) {}
 
   void Refine(RelativePose* pose) const {
     for (int i = 0; i < kRefinements; ++i) Step(pose);
@@ -78,21 +78,21 @@ class PoseRefiner {
  private:
   void Step(RelativePose* pose) const;
   Eigen::Vector3d GyroError(const RelativePose& pose) const {
-    return SO3Log(pose.R_C1_C0 * R_C1_C0_gyro_.conjugate()) / kGyroDeviation;
+    return SO3Log(pose.R_now_then * R_now_then_gyro_.conjugate()) / kGyroDeviation;
   }
 
   const std::vector<Correspondence>& correspondences_;
-  Eigen::Quaterniond R_C1_C0_gyro_;
+  Eigen::Quaterniond R_now_then_gyro_;
   double noise_;
 };
 
 // Returns the Cauchy cost of the whitened distances plus the squared error of the gyroscope.
 double PoseRefiner::Cost(const RelativePose& pose) const {
-  const Eigen::Matrix3d R = pose.R_C1_C0.toRotationMatrix();
-  const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose.t_C1_C0);
+  const Eigen::Matrix3d R = pose.R_now_then.toRotationMatrix();
+  const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose.t_now_then);
   double cost = GyroError(pose).squaredNorm();
   for (const Correspondence& c : correspondences_) {
-    const double whitened = Evaluate(c, R, pose.t_C1_C0, B).distance / noise_;
+    const double whitened = Evaluate(c, R, pose.t_now_then, B).distance / noise_;
     cost += std::log1p(whitened * whitened);
   }
   return cost;
@@ -101,12 +101,12 @@ double PoseRefiner::Cost(const RelativePose& pose) const {
 // Takes one Gauss-Newton step over all correspondences with Cauchy weights; also sets the
 // information.
 void PoseRefiner::Step(RelativePose* pose) const {
-  const Eigen::Matrix3d R = pose->R_C1_C0.toRotationMatrix();
-  const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose->t_C1_C0);
+  const Eigen::Matrix3d R = pose->R_now_then.toRotationMatrix();
+  const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose->t_now_then);
   Matrix5d H = Matrix5d::Zero();
   Vector5d g = Vector5d::Zero();
   for (const Correspondence& c : correspondences_) {
-    EpipolarResidual r = Evaluate(c, R, pose->t_C1_C0, B);
+    EpipolarResidual r = Evaluate(c, R, pose->t_now_then, B);
     const double whitened = r.distance / noise_;
     const double weight = 1.0 / (1.0 + whitened * whitened);
     r.gradient /= noise_;
@@ -121,8 +121,8 @@ void PoseRefiner::Step(RelativePose* pose) const {
   H.topLeftCorner<3, 3>() += Eigen::Matrix3d::Identity() / (kGyroDeviation * kGyroDeviation);
   g.head<3>() += GyroError(*pose) / kGyroDeviation;
   const Vector5d step = -H.ldlt().solve(g);
-  pose->R_C1_C0 = (SO3Exp(step.head<3>()) * pose->R_C1_C0).normalized();
-  pose->t_C1_C0 = (pose->t_C1_C0 + B * step.tail<2>()).normalized();
+  pose->R_now_then = (SO3Exp(step.head<3>()) * pose->R_now_then).normalized();
+  pose->t_now_then = (pose->t_now_then + B * step.tail<2>()).normalized();
 }
 
 cv::Mat FindEssentialMatrix(const std::vector<cv::Point2d>& points0,
@@ -139,7 +139,7 @@ cv::Mat FindEssentialMatrix(const std::vector<cv::Point2d>& points0,
 // Returns the pose of the five-point RANSAC: of the decompositions of E, the one nearest to the
 // gyroscope's rotation.
 std::optional<RelativePose> FivePointPose(const std::vector<Correspondence>& correspondences,
-                                          const Eigen::Quaterniond& R_C1_C0_gyro, double noise) {
+                                          const Eigen::Quaterniond& R_now_then_gyro, double noise) {
   std::vector<cv::Point2d> points0, points1;
   for (const Correspondence& c : correspondences) {
     points0.emplace_back(c.xy0.x(), c.xy0.y());
@@ -150,38 +150,38 @@ std::optional<RelativePose> FivePointPose(const std::vector<Correspondence>& cor
   cv::Mat R_a, R_b, t;
   cv::decomposeEssentialMat(E, R_a, R_b, t);
   const Eigen::Quaterniond a(ToEigen(R_a)), b(ToEigen(R_b));
-  const bool a_is_nearer = a.angularDistance(R_C1_C0_gyro) <= b.angularDistance(R_C1_C0_gyro);
+  const bool a_is_nearer = a.angularDistance(R_now_then_gyro) <= b.angularDistance(R_now_then_gyro);
   RelativePose pose;
-  pose.R_C1_C0 = a_is_nearer ? a : b;
-  pose.t_C1_C0 = Eigen::Vector3d(t.at<double>(0), t.at<double>(1), t.at<double>(2)).normalized();
+  pose.R_now_then = a_is_nearer ? a : b;
+  pose.t_now_then = Eigen::Vector3d(t.at<double>(0), t.at<double>(1), t.at<double>(2)).normalized();
   return pose;
 }
 
 // Returns the gyroscope's rotation with the translation direction that fits all epipolar planes
 // best.
 RelativePose GyroPose(const std::vector<Correspondence>& correspondences,
-                      const Eigen::Quaterniond& R_C1_C0_gyro) {
+                      const Eigen::Quaterniond& R_now_then_gyro) {
   Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
   for (const Correspondence& c : correspondences) {
-    const Eigen::Vector3d rotated = R_C1_C0_gyro * c.xy0.homogeneous().eval();
+    const Eigen::Vector3d rotated = R_now_then_gyro * c.xy0.homogeneous().eval();
     const Eigen::Vector3d normal = rotated.cross(c.xy1.homogeneous().eval());
     normals += normal * normal.transpose();
   }
   RelativePose pose;
-  pose.R_C1_C0 = R_C1_C0_gyro;
-  pose.t_C1_C0 = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(normals).eigenvectors().col(0);
+  pose.R_now_then = R_now_then_gyro;
+  pose.t_now_then = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(normals).eigenvectors().col(0);
   return pose;
 }
 
 // Marks the inliers.
 void Classify(const std::vector<Correspondence>& correspondences, double noise,
               RelativePose* pose) {
-  const Eigen::Matrix3d R = pose->R_C1_C0.toRotationMatrix();
-  const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose->t_C1_C0);
+  const Eigen::Matrix3d R = pose->R_now_then.toRotationMatrix();
+  const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose->t_now_then);
   pose->inliers.assign(correspondences.size(), false);
   pose->num_inliers = 0;
   for (size_t i = 0; i < correspondences.size(); ++i) {
-    const double distance = Evaluate(correspondences[i], R, pose->t_C1_C0, B).distance;
+    const double distance = Evaluate(correspondences[i], R, pose->t_now_then, B).distance;
     pose->inliers[i] = std::abs(distance) < kInlierSigmas * noise;
     pose->num_inliers += pose->inliers[i];
   }
@@ -190,13 +190,13 @@ void Classify(const std::vector<Correspondence>& correspondences, double noise,
 // Returns the fit that starts from the gyroscope's rotation, or the RANSAC solution if the former
 // has many outliers and the latter has a lower cost.
 RelativePose FitPose(const std::vector<Correspondence>& correspondences,
-                     const Eigen::Quaterniond& R_C1_C0_gyro, double noise) {
-  const PoseRefiner refiner(correspondences, R_C1_C0_gyro, noise);
-  RelativePose pose = GyroPose(correspondences, R_C1_C0_gyro);
+                     const Eigen::Quaterniond& R_now_then_gyro, double noise) {
+  const PoseRefiner refiner(correspondences, R_now_then_gyro, noise);
+  RelativePose pose = GyroPose(correspondences, R_now_then_gyro);
   refiner.Refine(&pose);
   Classify(correspondences, noise, &pose);
   if (pose.num_inliers >= kClearShare * static_cast<double>(correspondences.size())) return pose;
-  auto candidate = FivePointPose(correspondences, R_C1_C0_gyro, noise);
+  auto candidate = FivePointPose(correspondences, R_now_then_gyro, noise);
   if (!candidate) return pose;
   refiner.Refine(&*candidate);
   if (refiner.Cost(*candidate) >= refiner.Cost(pose)) return pose;
@@ -210,24 +210,24 @@ void ChooseTranslationSign(const std::vector<Correspondence>& correspondences, R
   for (size_t i = 0; i < correspondences.size(); ++i) {
     if (!pose->inliers[i]) continue;
     const Eigen::Vector3d f1 = correspondences[i].xy1.homogeneous();
-    const Eigen::Vector3d rotated = pose->R_C1_C0 * correspondences[i].xy0.homogeneous();
+    const Eigen::Vector3d rotated = pose->R_now_then * correspondences[i].xy0.homogeneous();
     // Multiplying depth1 f1 = depth0 R f0 + t by f1 x gives depth0 (f1 x R f0) = -f1 x t.
-    votes += f1.cross(rotated).dot(f1.cross(pose->t_C1_C0)) < 0 ? 1 : -1;
+    votes += f1.cross(rotated).dot(f1.cross(pose->t_now_then)) < 0 ? 1 : -1;
   }
-  if (votes < 0) pose->t_C1_C0 = -pose->t_C1_C0;
+  if (votes < 0) pose->t_now_then = -pose->t_now_then;
 }
 
 }  // namespace
 
 std::optional<RelativePose> EstimateRelativePose(const std::vector<Correspondence>& correspondences,
-                                                 const Eigen::Quaterniond& R_C1_C0_gyro,
+                                                 const Eigen::Quaterniond& R_now_then_gyro,
                                                  double noise, std::string* reason) {
   if (correspondences.size() < kMinCorrespondences) {
     *reason = "too few common points: " + std::to_string(correspondences.size()) + " of " +
               std::to_string(kMinCorrespondences);
     return std::nullopt;
   }
-  RelativePose pose = FitPose(correspondences, R_C1_C0_gyro, noise);
+  RelativePose pose = FitPose(correspondences, R_now_then_gyro, noise);
   if (pose.num_inliers < std::max<int>(kMinInliers, correspondences.size() / 2)) {
     *reason = "epipolar geometry has too few inliers: " + std::to_string(pose.num_inliers) +
               " of " + std::to_string(correspondences.size());
@@ -238,10 +238,10 @@ std::optional<RelativePose> EstimateRelativePose(const std::vector<Correspondenc
 }
 
 double MedianParallax(const std::vector<Correspondence>& correspondences,
-                      const Eigen::Quaterniond& R_C1_C0) {
+                      const Eigen::Quaterniond& R_now_then) {
   std::vector<double> angles;
   for (const Correspondence& c : correspondences) {
-    const Eigen::Vector3d rotated = R_C1_C0 * c.xy0.homogeneous().eval();
+    const Eigen::Vector3d rotated = R_now_then * c.xy0.homogeneous().eval();
     const Eigen::Vector3d f1 = c.xy1.homogeneous();
     angles.push_back(std::atan2(rotated.cross(f1).norm(), rotated.dot(f1)));
   }

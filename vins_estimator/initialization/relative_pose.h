@@ -11,13 +11,14 @@
 
 namespace plm_vins {
 
-// Pose of the second camera C1 relative to the first C0; the length of the translation is
-// unobservable.
+// Pose of the camera now relative to that of an earlier view, "then"; the length of the translation
+// is unobservable.
 struct RelativePose {
-  Eigen::Quaterniond R_C1_C0 = Eigen::Quaterniond::Identity();
-  // Unit vector: a point p_C0 is observed at R_C1_C0 p_C0 + s t_C1_C0, s > 0.
-  Eigen::Vector3d t_C1_C0 = Eigen::Vector3d::Zero();
-  // Inverse covariance of theta in Exp(theta) R_C1_C0, with the translation marginalized [1/rad^2].
+  Eigen::Quaterniond R_now_then = Eigen::Quaterniond::Identity();
+  // Unit vector: a point p_then is observed at R_now_then p_then + s t_now_then, s > 0.
+  Eigen::Vector3d t_now_then = Eigen::Vector3d::Zero();
+  // Inverse covariance of theta in Exp(theta) R_now_then, with the translation marginalized
+  // [1/rad^2].
   Eigen::Matrix3d rotation_information = Eigen::Matrix3d::Zero();
   std::vector<bool> inliers;
   int num_inliers = 0;
@@ -32,12 +33,12 @@ struct RelativePose {
 // deviation of a normalized coordinate. Returns nullopt, with the reason, if there are too few
 // inliers.
 std::optional<RelativePose> EstimateRelativePose(const std::vector<Correspondence>& correspondences,
-                                                 const Eigen::Quaterniond& R_C1_C0_gyro,
+                                                 const Eigen::Quaterniond& R_now_then_gyro,
                                                  double noise, std::string* reason);
 
 // Returns the median angle between the two rays of a point after compensation of the rotation
 // [rad].
 double MedianParallax(const std::vector<Correspondence>& correspondences,
-                      const Eigen::Quaterniond& R_C1_C0);
+                      const Eigen::Quaterniond& R_now_then);
 
 }  // namespace plm_vins

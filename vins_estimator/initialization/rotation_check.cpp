@@ -16,8 +16,8 @@ using Cause = RotationFit::Cause;
 constexpr double kHistory = 0.5;                       // more than the interval of a pair [s]
 constexpr double kStride = 0.3, kStrideInDoubt = 0.1;  // between pairs [s]
 constexpr size_t kMaxPairs = 200;
-constexpr int64_t kJudgedPairs = 10;        // between judgements
-constexpr double kMaxMountingError = 0.17;  // [rad]; larger errors are not linear
+constexpr int64_t kJudgedPairs = 10;          // between judgements
+constexpr double kMaxExtrinsicsError = 0.17;  // [rad]; larger errors are not linear
 constexpr char kBy[] = ", by the rotations of camera and gyro";
 
 double Degrees(double radians) { return radians * 180 / M_PI; }
@@ -32,7 +32,7 @@ std::string Describe(const RotationFit& fit) {
           "the focal length is wrong by about %+.0f %%%s: calibrate the camera at this resolution, "
           "or estimate_intrinsics: 1 with a focal_length_deviation as large",
           100 * fit.amount, kBy);
-    case Cause::kMounting:
+    case Cause::kExtrinsics:
       return Format("extrinsicRotation is wrong by %.1f deg%s: estimate_extrinsic: 1 refines it",
                     Degrees(fit.amount), kBy);
     case Cause::kGyro:
@@ -73,7 +73,7 @@ void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
   std::string reason;
   const auto calibrated = CalibrateExtrinsicRotation(pairs_, ExtrinsicRotationOptions(), &reason);
   const double error = calibrated ? calibrated->angularDistance(R_B_C) : 0;
-  if (error > kMaxMountingError) {
+  if (error > kMaxExtrinsicsError) {
     agrees_ = false;
     finding_ = Format(
         "extrinsicRotation is wrong by %.0f deg%s: is it the inverse, or of an image that is "
@@ -95,7 +95,7 @@ bool RotationCheck::IsRefined(const RotationFit& fit) const {
     case Cause::kFocalLength:
       return sensor_.estimate_intrinsics &&
              std::abs(fit.amount) < kSigmas * sensor_.intrinsics_deviation.focal_length;
-    case Cause::kMounting:
+    case Cause::kExtrinsics:
       return sensor_.estimate_extrinsic == SensorConfig::ExtrinsicMode::kRefine;
     default:
       return false;

@@ -25,7 +25,7 @@ constexpr int kReweighings = 5;
 constexpr double kInlierSigmas = 3;
 
 // Columns of the Jacobian with respect to all parameters.
-constexpr int kBias = 0, kDelay = 3, kFocal = 4, kMounting = 5, kGyro = 8, kColumns = 17;
+constexpr int kBias = 0, kDelay = 3, kFocal = 4, kExtrinsics = 5, kGyro = 8, kColumns = 17;
 
 struct Range {
   double min, max;
@@ -37,7 +37,7 @@ Range Limits(Cause cause) {
     case Cause::kTimeOffset:
       return {0.005, 0.1};
     case Cause::kFocalLength:
-    case Cause::kMounting:
+    case Cause::kExtrinsics:
       return {0.02, 0.3};
     default:
       return {0.015, 0.3};
@@ -54,8 +54,8 @@ Columns ColumnsOf(Cause cause) {
       return {kDelay, 1};
     case Cause::kFocalLength:
       return {kFocal, 1};
-    case Cause::kMounting:
-      return {kMounting, 3};
+    case Cause::kExtrinsics:
+      return {kExtrinsics, 3};
     case Cause::kGyro:
       return {kGyro, 9};
     default:
@@ -79,12 +79,12 @@ Equations Linearize(const std::vector<RotationPair>& pairs, const Eigen::Quatern
   Equations equations{Eigen::VectorXd(3 * count), Eigen::MatrixXd::Zero(3 * count, kColumns)};
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Vector3d turn = SO3Log(pairs[i].R_B0_B1);
-    equations.differences.segment<3>(3 * i) = R_B_C * SO3Log(pairs[i].R_C0_C1) - turn;
+    equations.differences.segment<3>(3 * i) = R_B_C * SO3Log(pairs[i].R_then_now) - turn;
     auto rows = equations.J.middleRows<3>(3 * i);
     rows.middleCols<3>(kBias).diagonal().setConstant(-pairs[i].duration);
     rows.col(kDelay) = pairs[i].rate_change;
     rows.col(kFocal) = -across * turn;
-    rows.middleCols<3>(kMounting) = -Skew(turn);
+    rows.middleCols<3>(kExtrinsics) = -Skew(turn);
     for (int k = 0; k < 3; ++k) rows.middleCols<3>(kGyro + 3 * k).diagonal().setConstant(-turn[k]);
     equations.mean_squared_turn += turn.squaredNorm() / static_cast<double>(count);
   }
@@ -128,7 +128,7 @@ Eigen::VectorXd Weights(const Equations& equations) {
 
 double Amount(Cause cause, const Eigen::VectorXd& parameters) {
   if (cause == Cause::kTimeOffset || cause == Cause::kFocalLength) return parameters[0];
-  if (cause == Cause::kMounting) return parameters.norm();
+  if (cause == Cause::kExtrinsics) return parameters.norm();
   return Eigen::Map<const Eigen::Matrix3d>(parameters.data()).jacobiSvd().singularValues()[0];
 }
 
@@ -147,7 +147,7 @@ RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
   RotationFit best = without;
   double best_criterion = count * std::log(squares);
   for (const Cause cause :
-       {Cause::kTimeOffset, Cause::kFocalLength, Cause::kMounting, Cause::kGyro}) {
+       {Cause::kTimeOffset, Cause::kFocalLength, Cause::kExtrinsics, Cause::kGyro}) {
     const Fit fit = Solve(equations, weights, cause);
     const double criterion =
         count * std::log(fit.squares) + std::log(count) * ColumnsOf(cause).count;

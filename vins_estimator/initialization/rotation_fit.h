@@ -11,9 +11,9 @@ namespace plm_vins {
 // The error of the calibration that explains best why the rotations of the camera differ from those
 // of the gyroscope.
 struct RotationFit {
-  enum class Cause { kUnknown, kNone, kTimeOffset, kFocalLength, kMounting, kGyro };
+  enum class Cause { kUnknown, kNone, kTimeOffset, kFocalLength, kExtrinsics, kGyro };
   Cause cause = Cause::kUnknown;
-  // Correction of td [s], relative error of the configured focal length, error of the mounting
+  // Correction of td [s], relative error of the configured focal length, error of the extrinsics
   // [rad], or largest relative error of the gyroscope's scale and axes.
   double amount = 0;
 };

@@ -60,14 +60,14 @@ std::optional<RotationPair> MeasureRotationPair(const std::deque<FrameMeasuremen
   Preintegration imu(imu_noise, ImuBias{});
   for (const ImuSample& sample : ends[1].imu) imu.Append(sample);
   const auto correspondences =
-      FindCorrespondences(CollectTracks({&ends[0].points, &ends[1].points}), 0, 1);
+      FindCorrespondences(OfCamera(0, CollectTracks({&ends[0].points, &ends[1].points})), 0, 1);
   const auto pose =
       EstimateRelativePose(correspondences, AlignRays(correspondences), noise, reason);
-  if (!pose || Eigen::AngleAxisd(pose->R_C1_C0).angle() < kMinTurn) return std::nullopt;
+  if (!pose || Eigen::AngleAxisd(pose->R_now_then).angle() < kMinTurn) return std::nullopt;
   const double variance = pose->rotation_information.inverse().trace() / 3;
   // If all points coincide, the variance is a rounding error.
   if (!(std::isfinite(variance) && variance >= 0)) return std::nullopt;
-  return RotationPair{imu.delta_q(), pose->R_C1_C0.conjugate(), imu.duration(),
+  return RotationPair{imu.delta_q(), pose->R_now_then.conjugate(), imu.duration(),
                       std::sqrt(variance + kExcessDeviation * kExcessDeviation),
                       RateChange(ends[1].imu)};
 }

@@ -17,15 +17,13 @@ constexpr int kResectionIterations = 10;
 constexpr double kLossScale = 2.0;          // Cauchy loss, in standard deviations
 constexpr double kMaxInlierResidual = 6.0;  // in standard deviations; depths are noisy as well
 
-bool HasDepth(const ViewObservation& observation) { return observation.right || observation.depth; }
-
 class Builder {
  public:
-  Builder(const std::vector<Track>& tracks, const std::vector<Eigen::Quaterniond>& R_G_C,
+  Builder(const std::vector<Track>& tracks, const std::vector<Eigen::Quaterniond>& R_G_B,
           const StereoStructureOptions& options)
-      : tracks_(tracks), R_G_C_(R_G_C), options_(options) {
-    structure_.T_G_C.resize(R_G_C.size());
-    structure_.rotation_information.assign(R_G_C.size(), Eigen::Matrix3d::Zero());
+      : tracks_(tracks), R_G_B_(R_G_B), options_(options) {
+    structure_.T_G_B.resize(R_G_B.size());
+    structure_.rotation_information.assign(R_G_B.size(), Eigen::Matrix3d::Zero());
     structure_.p_G.resize(tracks.size());
   }
 
@@ -42,64 +40,75 @@ class Builder {
     int inliers = 0;
   };
 
-  int ViewWithMostPairs() const;
-  std::optional<Eigen::Vector3d> PointOf(const ViewObservation& seen, const Rigid3d& T_G_C) const;
+  int ViewWithMostDepths() const;
+  std::optional<Eigen::Vector3d> PointOf(const Track& track, int view) const;
   int TriangulateIn(int view);
-  void AddPoint(const Eigen::Vector3d& p_G, const Eigen::Vector2d& xy, const Rigid3d& T_G_C,
+  void AddPoint(const Eigen::Vector3d& p_G, const Track::Observation& seen,
                 Resection* equations) const;
   Resection Linearize(int view) const;
   bool Resect(int view, int neighbor, std::string* reason);
 
   const std::vector<Track>& tracks_;
-  const std::vector<Eigen::Quaterniond>& R_G_C_;
+  const std::vector<Eigen::Quaterniond>& R_G_B_;
   const StereoStructureOptions options_;
   StereoStructure structure_;
 };
 
-int Builder::ViewWithMostPairs() const {
-  std::vector<int> pairs(R_G_C_.size(), 0);
+// Counts what is observed beyond one image of each point.
+int Builder::ViewWithMostDepths() const {
+  std::vector<int> depths(R_G_B_.size(), 0);
   for (const Track& track : tracks_) {
-    for (const ViewObservation& o : track.observations) pairs[o.view] += HasDepth(o);
+    for (const Track::Observation& o : track.observations) {
+      depths[o.view] += o.depth || &o != track.In(o.view);
+    }
   }
-  return static_cast<int>(std::max_element(pairs.begin(), pairs.end()) - pairs.begin());
+  return static_cast<int>(std::max_element(depths.begin(), depths.end()) - depths.begin());
 }
 
-// Returns nullopt if both observations are nearly parallel or do not belong to one point.
-std::optional<Eigen::Vector3d> Builder::PointOf(const ViewObservation& seen,
-                                                const Rigid3d& T_G_C) const {
-  if (seen.depth) return T_G_C * (*seen.depth * seen.xy.homogeneous());
-  auto p_G = TriangulatePoint({{T_G_C, seen.xy}, {T_G_C * options_.T_C_C1, *seen.right}},
-                              options_.min_angle);
+// Returns the position by the observations in one view: by the measured depth, or by two cameras.
+// Returns nullopt without these, if their rays are nearly parallel, or if they do not belong to one
+// point.
+std::optional<Eigen::Vector3d> Builder::PointOf(const Track& track, int view) const {
+  std::vector<PosedPointObservation> observations;
+  for (const Track::Observation& o : track.observations) {
+    if (o.view != view) continue;
+    const Rigid3d T_G_C = structure_.T_G_B[view] * options_.T_B_C[o.camera];
+    if (o.depth) return T_G_C * (*o.depth * o.xy.homogeneous());
+    observations.push_back({T_G_C, o.xy});
+  }
+  if (observations.size() < 2) return std::nullopt;
+  const auto p_G = TriangulatePoint(observations, options_.min_angle);
   if (!p_G) return std::nullopt;
-  const Eigen::Vector2d error = (T_G_C.Inverse() * *p_G).hnormalized() - seen.xy;
+  const auto& [T_G_C, xy] = observations.front();
+  const Eigen::Vector2d error = (T_G_C.Inverse() * *p_G).hnormalized() - xy;
   if (error.norm() > kMaxInlierResidual * options_.noise) return std::nullopt;
   return p_G;
 }
 
 // Adds the points that have a depth in the view; returns their number.
 int Builder::TriangulateIn(int view) {
-  const Rigid3d& T_G_C = structure_.T_G_C[view];
   int added = 0;
   for (size_t i = 0; i < tracks_.size(); ++i) {
-    const ViewObservation* seen = tracks_[i].In(view);
-    if (structure_.p_G[i] || seen == nullptr || !HasDepth(*seen)) continue;
-    structure_.p_G[i] = PointOf(*seen, T_G_C);
+    if (structure_.p_G[i]) continue;
+    structure_.p_G[i] = PointOf(tracks_[i], view);
     added += structure_.p_G[i].has_value();
   }
   return added;
 }
 
-void Builder::AddPoint(const Eigen::Vector3d& p_G, const Eigen::Vector2d& xy, const Rigid3d& T_G_C,
+void Builder::AddPoint(const Eigen::Vector3d& p_G, const Track::Observation& seen,
                        Resection* equations) const {
-  const Eigen::Matrix3d R_C_G = T_G_C.R().transpose();
-  const Eigen::Vector3d p_C = R_C_G * (p_G - T_G_C.translation);
+  const Rigid3d &T_G_B = structure_.T_G_B[seen.view], &T_B_C = options_.T_B_C[seen.camera];
+  const Eigen::Matrix3d R_B_G = T_G_B.R().transpose(), R_C_B = T_B_C.R().transpose();
+  const Eigen::Vector3d p_B = R_B_G * (p_G - T_G_B.translation);
+  const Eigen::Vector3d p_C = R_C_B * (p_B - T_B_C.translation);
   if (p_C.z() < kMinTriangulatedDepth) return;
-  const Eigen::Vector2d residual = (p_C.hnormalized() - xy) / options_.noise;
+  const Eigen::Vector2d residual = (p_C.hnormalized() - seen.xy) / options_.noise;
   Eigen::Matrix<double, 2, 3> projection;
   projection << 1, 0, -p_C.x() / p_C.z(), 0, 1, -p_C.y() / p_C.z();
   projection /= p_C.z() * options_.noise;
   Eigen::Matrix<double, 2, 6> J;
-  J << -projection * R_C_G, projection * Skew(p_C);
+  J << -projection * R_C_B * R_B_G, projection * R_C_B * Skew(p_B);
   const double weight = 1 / (1 + residual.squaredNorm() / (kLossScale * kLossScale));
   equations->H += weight * J.transpose() * J;
   equations->g += weight * J.transpose() * residual;
@@ -109,25 +118,26 @@ void Builder::AddPoint(const Eigen::Vector3d& p_G, const Eigen::Vector2d& xy, co
 Builder::Resection Builder::Linearize(int view) const {
   Resection equations;
   for (size_t i = 0; i < tracks_.size(); ++i) {
-    const ViewObservation* seen = tracks_[i].In(view);
-    if (!structure_.p_G[i] || seen == nullptr) continue;
-    AddPoint(*structure_.p_G[i], seen->xy, structure_.T_G_C[view], &equations);
+    if (!structure_.p_G[i]) continue;
+    for (const Track::Observation& o : tracks_[i].observations) {
+      if (o.view == view) AddPoint(*structure_.p_G[i], o, &equations);
+    }
   }
   return equations;
 }
 
 bool Builder::Resect(int view, int neighbor, std::string* reason) {
-  Rigid3d& T_G_C = structure_.T_G_C[view];
-  const Rigid3d& T_G_neighbor = structure_.T_G_C[neighbor];
-  T_G_C = {T_G_neighbor.rotation * R_G_C_[neighbor].conjugate() * R_G_C_[view],
+  Rigid3d& T_G_B = structure_.T_G_B[view];
+  const Rigid3d& T_G_neighbor = structure_.T_G_B[neighbor];
+  T_G_B = {T_G_neighbor.rotation * R_G_B_[neighbor].conjugate() * R_G_B_[view],
            T_G_neighbor.translation};
   Resection equations;
   for (int i = 0; i < kResectionIterations; ++i) {
     equations = Linearize(view);
     const Vector6d step = -equations.H.ldlt().solve(equations.g);
     if (!step.allFinite()) break;
-    T_G_C.translation += step.head<3>();
-    T_G_C.rotation = (T_G_C.rotation * SO3Exp(step.tail<3>())).normalized();
+    T_G_B.translation += step.head<3>();
+    T_G_B.rotation = (T_G_B.rotation * SO3Exp(step.tail<3>())).normalized();
   }
   if (equations.inliers < kMinPoints) {
     *reason =
@@ -142,11 +152,11 @@ bool Builder::Resect(int view, int neighbor, std::string* reason) {
 }
 
 std::optional<StereoStructure> Builder::Build(std::string* reason) {
-  const int first = ViewWithMostPairs(), count = static_cast<int>(R_G_C_.size());
+  const int first = ViewWithMostDepths(), count = static_cast<int>(R_G_B_.size());
   const int points = TriangulateIn(first);
   if (points < kMinPoints) {
-    *reason = Format("too few points with a depth by the second camera or the sensor: %d of %d",
-                     points, kMinPoints);
+    *reason = Format("too few points with a depth by two cameras or the sensor: %d of %d", points,
+                     kMinPoints);
     return std::nullopt;
   }
   for (int view = first + 1; view < count; ++view) {
@@ -163,10 +173,10 @@ std::optional<StereoStructure> Builder::Build(std::string* reason) {
 }  // namespace
 
 std::optional<StereoStructure> ReconstructFromStereo(const std::vector<Track>& tracks,
-                                                     const std::vector<Eigen::Quaterniond>& R_G_C,
+                                                     const std::vector<Eigen::Quaterniond>& R_G_B,
                                                      const StereoStructureOptions& options,
                                                      std::string* reason) {
-  return Builder(tracks, R_G_C, options).Build(reason);
+  return Builder(tracks, R_G_B, options).Build(reason);
 }
 
 }  // namespace plm_vins

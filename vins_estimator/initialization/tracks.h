@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Point tracks over a few views, for the steps of the initialization.
+// Point tracks over a few views, for the steps of the initialization. A view is a frame, with the
+// images of all cameras.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,20 +12,20 @@
 
 namespace plm_vins {
 
-struct ViewObservation {
-  int view = 0;                               // index of the view, 0 is the oldest
-  Eigen::Vector2d xy;                         // normalized, undistorted
-  std::optional<Eigen::Vector2d> right = {};  // in the second camera
-  std::optional<double> depth = {};           // measured [m]
-};
-
-// A point and its observations, in ascending order of views.
+// A point and its observations, by view and camera.
 struct Track {
-  int64_t id = -1;
-  std::vector<ViewObservation> observations;
+  struct Observation {
+    int view = 0;  // index of the view, 0 is the oldest
+    int camera = 0;
+    Eigen::Vector2d xy;                // normalized, undistorted
+    std::optional<double> depth = {};  // measured [m]
+  };
 
-  // Returns the observation in one view, or null.
-  const ViewObservation* In(int view) const;
+  int64_t id = -1;
+  std::vector<Observation> observations;
+
+  // Returns the first observation in one view, or null.
+  const Observation* In(int view) const;
 };
 
 // Observations of one point in two views, normalized and undistorted.
@@ -35,7 +36,11 @@ struct Correspondence {
 // Returns all points that are observed in at least two views, by ascending id.
 std::vector<Track> CollectTracks(const std::vector<const PointFrame*>& views);
 
-// Returns the points that both views observe, in the order of the tracks.
+// Returns the tracks of one camera alone, without measured depths.
+std::vector<Track> OfCamera(int camera, const std::vector<Track>& tracks);
+
+// Returns the points that both views observe, in the order of the tracks, which must be of one
+// camera.
 std::vector<Correspondence> FindCorrespondences(const std::vector<Track>& tracks, int view0,
                                                 int view1);
 

@@ -9,11 +9,12 @@
 #include <memory>
 
 #include "vins_estimator/factors/bundle_priors.h"
+#include "vins_estimator/factors/depth_factor.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/factors/point_factor.h"
-#include "vins_estimator/factors/stereo_factor.h"
 #include "vins_estimator/geometry/depth_limits.h"
+#include "vins_estimator/geometry/point_in_host.h"
 #include "vins_estimator/least_squares/normal_equations.h"
 #include "vins_estimator/least_squares/term_evaluation.h"
 #include "vins_estimator/least_squares/window_problem.h"
@@ -47,24 +48,24 @@ class Bundle {
   void AddVariables();
   void AddImu();
   void AddPriors();
-  Eigen::Vector3d InCamera(int view, const Eigen::Vector3d& p_W) const;
+  Eigen::Vector3d InCamera(const Track::Observation& image, const Eigen::Vector3d& p_W) const;
   void AddTrack(const Track& track, const Eigen::Vector3d& p_W);
-  void AddDepth(const ViewObservation& host, const ViewObservation& target, int landmark,
-                int point);
+  TermVariables ChainVariables(const ChainKind& kind, const Track::Observation& host,
+                               const Track::Observation& target) const;
   Eigen::VectorXd ScaleDirection() const;
 
   const VisualInertialBundleOptions options_;
   const Eigen::Vector3d gravity_W_;
   const std::vector<Preintegration>& preintegrations_;
   std::vector<FrameState>& states_;
-  std::array<double, kPoseSize> extrinsics_, mounting_;
+  std::vector<FrameState> extrinsics_;  // as poses, by camera
   std::array<double, kDepthStreamSize> depth_stream_ = {0, 0};
   double time_offset_ = 0;
   std::vector<std::array<double, kPointSize>> points_;  // image point and inverse depth in the host
   ceres::CauchyLoss loss_{1.0};
-  std::vector<int> poses_, motions_;  // variable indices, by view
-  int extrinsic_variable_ = -1, mounting_variable_ = -1, depth_stream_variable_ = -1;
-  int td_variable_ = -1;
+  std::vector<int> poses_, motions_;       // variable indices, by view
+  std::vector<int> extrinsics_variables_;  // by camera
+  int depth_stream_variable_ = -1, td_variable_ = -1;
   WindowProblem problem_;
 };
 
@@ -75,13 +76,8 @@ Bundle::Bundle(const std::vector<Track>& tracks,
     : options_(options),
       gravity_W_(0, 0, -options.gravity_norm),
       preintegrations_(preintegrations),
-      states_(*states) {
-  FrameState extrinsics;
-  extrinsics.SetPose(options.T_B_C);
-  extrinsics_ = extrinsics.pose;
-  FrameState mounting;
-  mounting.SetPose(options.T_C_C1);
-  mounting_ = mounting.pose;
+      states_(*states),
+      extrinsics_(options.T_B_C.size()) {
   points_.reserve(tracks.size());  // the problem stores pointers to the elements
   AddVariables();
   AddImu();
@@ -97,9 +93,11 @@ void Bundle::AddVariables() {
     motions_.push_back(problem_.AddVariable({BlockKind::kMotion, state.t_ns}, state.motion.data()));
   }
   constexpr bool kConstant = true;
-  extrinsic_variable_ =
-      problem_.AddVariable({BlockKind::kExtrinsic, 0}, extrinsics_.data(), kConstant);
-  mounting_variable_ = problem_.AddVariable({BlockKind::kMounting, 0}, mounting_.data(), kConstant);
+  for (size_t i = 0; i < extrinsics_.size(); ++i) {
+    extrinsics_[i].SetPose(options_.T_B_C[i]);
+    extrinsics_variables_.push_back(problem_.AddVariable(
+        {BlockKind::kExtrinsic, static_cast<int64_t>(i)}, extrinsics_[i].pose.data(), kConstant));
+  }
   depth_stream_variable_ =
       problem_.AddVariable({BlockKind::kDepthStream, 0}, depth_stream_.data(), kConstant);
   td_variable_ = problem_.AddVariable({BlockKind::kTimeOffset, 0}, &time_offset_, kConstant);
@@ -120,60 +118,49 @@ void Bundle::AddPriors() {
                    nullptr, {motions_.front()});
 }
 
-Eigen::Vector3d Bundle::InCamera(int view, const Eigen::Vector3d& p_W) const {
-  return (states_[view].T_W_B() * options_.T_B_C).Inverse() * p_W;
+Eigen::Vector3d Bundle::InCamera(const Track::Observation& image,
+                                 const Eigen::Vector3d& p_W) const {
+  return (states_[image.view].T_W_B() * options_.T_B_C[image.camera]).Inverse() * p_W;
 }
 
-// Adds a point, hosted by the first view of its track, with one factor per view.
-void Bundle::AddTrack(const Track& track, const Eigen::Vector3d& p_W) {
-  const ViewObservation& host = track.observations.front();
-  for (const ViewObservation& o : track.observations) {
-    if (InCamera(o.view, p_W).z() < kMinLandmarkDepth) return;
+TermVariables Bundle::ChainVariables(const ChainKind& kind, const Track::Observation& host,
+                                     const Track::Observation& target) const {
+  if (kind.is_host()) return {};
+  TermVariables poses{extrinsics_variables_[host.camera]};
+  if (!kind.same_frame) {
+    poses.Add(poses_[host.view]);
+    poses.Add(poses_[target.view]);
   }
-  const Eigen::Vector3d p_C = InCamera(host.view, p_W);
+  if (!kind.same_camera) poses.Add(extrinsics_variables_[target.camera]);
+  return poses;
+}
+
+// Adds a point, hosted by the first observation of its track, with a factor for each observation
+// and for each measured depth.
+void Bundle::AddTrack(const Track& track, const Eigen::Vector3d& p_W) {
+  const Track::Observation& host = track.observations.front();
+  for (const Track::Observation& o : track.observations) {
+    if (InCamera(o, p_W).z() < kMinLandmarkDepth) return;
+  }
+  const Eigen::Vector3d p_C = InCamera(host, p_W);
   points_.push_back({p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1 / p_C.z()});
   const BlockId id{BlockKind::kPoint, track.id};
   const int index = problem_.AddLandmark(id, points_.back().data());
   const int point = problem_.Find(id);
-  const double weight = 1 / options_.noise;
-  const auto bearing = [](const Eigen::Vector2d& xy) {
-    return TimedBearing{xy, Eigen::Vector2d::Zero(), 0};
-  };
-  problem_.AddLandmarkTerm(index, PointHostFactor(bearing(host.xy), weight), &loss_,
-                           {td_variable_, point});
-  for (size_t i = 1; i < track.observations.size(); ++i) {
-    const ViewObservation& target = track.observations[i];
-    problem_.AddLandmarkTerm(
-        index, PointFactor(bearing(target.xy), weight), &loss_,
-        {poses_[host.view], poses_[target.view], extrinsic_variable_, td_variable_, point});
-  }
-  for (const ViewObservation& target : track.observations) AddDepth(host, target, index, point);
-}
-
-// Adds the observation in the second camera and the measured depth of a landmark in one view.
-void Bundle::AddDepth(const ViewObservation& host, const ViewObservation& target, int landmark,
-                      int point) {
-  const bool in_host = target.view == host.view;
-  const double weight = 1 / options_.noise, depth_weight = 1 / options_.depth_noise;
-  const int host_pose = poses_[host.view], pose = poses_[target.view];
-  if (target.right) {
-    const TimedBearing right{*target.right, Eigen::Vector2d::Zero(), 0};
-    if (in_host) {
-      problem_.AddLandmarkTerm(landmark, RightPointHostFactor(right, weight), &loss_,
-                               {mounting_variable_, td_variable_, point});
-    } else {
-      problem_.AddLandmarkTerm(
-          landmark, RightPointFactor(right, weight), &loss_,
-          {host_pose, pose, extrinsic_variable_, mounting_variable_, td_variable_, point});
-    }
-  }
-  if (!target.depth) return;
-  if (in_host) {
-    problem_.AddLandmarkTerm(landmark, DepthHostFactor({*target.depth}, depth_weight), &loss_,
-                             {depth_stream_variable_, point});
-  } else {
-    problem_.AddLandmarkTerm(landmark, DepthFactor({*target.depth}, depth_weight), &loss_,
-                             {host_pose, pose, extrinsic_variable_, depth_stream_variable_, point});
+  for (const Track::Observation& target : track.observations) {
+    const ChainKind kind{target.view == host.view, target.camera == host.camera};
+    TermVariables variables = ChainVariables(kind, host, target);
+    TermVariables depth_variables = variables;
+    variables.Add(td_variable_);
+    variables.Add(point);
+    const TimedBearing bearing{target.xy, Eigen::Vector2d::Zero(), 0};
+    problem_.AddLandmarkTerm(index, PointFactor(kind, bearing, 1 / options_.noise), &loss_,
+                             variables);
+    if (!target.depth) continue;
+    depth_variables.Add(depth_stream_variable_);
+    depth_variables.Add(point);
+    problem_.AddLandmarkTerm(index, DepthFactor(kind, {*target.depth}, 1 / options_.depth_noise),
+                             &loss_, depth_variables);
   }
 }
 

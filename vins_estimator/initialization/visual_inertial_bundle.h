@@ -15,12 +15,11 @@
 namespace plm_vins {
 
 struct VisualInertialBundleOptions {
-  Rigid3d T_B_C;
+  std::vector<Rigid3d> T_B_C;   // by camera
   double gravity_norm;          // [m/s^2]
   double noise;                 // standard deviation of a normalized coordinate
   double accel_bias_deviation;  // standard deviation of the accelerometer bias about 0 [m/s^2]
   double gyro_bias_deviation = 0.05;  // deviation of the gyroscope bias from its start [rad/s]
-  Rigid3d T_C_C1 = {};                // second camera, if tracks have observations in it
   double depth_noise = 0;             // noise of a measured inverse depth, if tracks have any [1/m]
   double max_scale_deviation = std::numeric_limits<double>::infinity();  // accepted, relative
 };

@@ -3,28 +3,9 @@
 
 #include <algorithm>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace plm_vins {
-namespace {
-
-// Joins the observations of camera 1 to those of camera 0 with the same id.
-template <typename Observation, typename Join>
-void JoinSecondCamera(std::vector<Observation>* observations, const Join& join) {
-  std::unordered_map<int64_t, Observation*> by_id;
-  for (Observation& observation : *observations) {
-    if (observation.camera == 0) by_id.emplace(observation.id, &observation);
-    const auto first = by_id.find(observation.id);
-    if (observation.camera == 1 && first != by_id.end()) join(observation, first->second);
-  }
-  observations->erase(std::remove_if(observations->begin(), observations->end(),
-                                     [](const auto& o) { return o.camera > 0; }),
-                      observations->end());
-}
-
-}  // namespace
-
 FeatureDoor::FeatureDoor(const SensorConfig& sensor)
     : cameras_(static_cast<int>(sensor.cameras.size())), has_depth_(sensor.depth.has_value()) {}
 
@@ -35,17 +16,9 @@ void FeatureDoor::Admit(PointFrame* frame) {
     point.depth.reset();
     depths_.Add("the configuration has no depth_topic, but the tracker's has");
   }
-  JoinSecondCamera(&frame->points, [](const PointObservation& second, PointObservation* first) {
-    first->right = second.xy;
-  });
 }
 
-void FeatureDoor::Admit(LineFrame* frame) {
-  RemoveOtherCameras(&frame->lines);
-  JoinSecondCamera(&frame->lines, [](const LineObservation& second, LineObservation* first) {
-    first->right = RightSegment{second.start, second.end, second.deviation};
-  });
-}
+void FeatureDoor::Admit(LineFrame* frame) { RemoveOtherCameras(&frame->lines); }
 
 DropCounts FeatureDoor::Drops() const {
   DropCounts drops;

@@ -22,19 +22,19 @@ void CheckFeatures(const FrameMeasurement& measurement, int64_t t_ns,
   if (t_ns != measurement.t_ns) {
     Reject(measurement, "its " + kind + "s have the timestamp " + std::to_string(t_ns) + " ns");
   }
-  std::vector<int64_t> ids;
-  ids.reserve(observations.size());
+  std::vector<int64_t> tracks;
+  tracks.reserve(observations.size());
   for (const Observation& observation : observations) {
     if (!IsPossible(observation)) {
       Reject(measurement,
              kind + " " + std::to_string(observation.id) + " has impossible coordinates");
     }
-    ids.push_back(observation.id);
+    tracks.push_back(TrackKey(observation));
   }
-  std::sort(ids.begin(), ids.end());
-  const auto twice = std::adjacent_find(ids.begin(), ids.end());
-  if (twice != ids.end()) {
-    Reject(measurement, kind + " " + std::to_string(*twice) + " occurs twice");
+  std::sort(tracks.begin(), tracks.end());
+  const auto twice = std::adjacent_find(tracks.begin(), tracks.end());
+  if (twice != tracks.end()) {
+    Reject(measurement, kind + " " + std::to_string(*twice / kMaxCameras) + " occurs twice");
   }
 }
 

@@ -47,13 +47,24 @@ Eigen::Vector2d FootOnLine(const LineObservation& line, const Eigen::Vector2d& x
 
 }  // namespace
 
+RollingShutter::RollingShutter(const std::vector<CameraSensor>& cameras) {
+  for (const CameraSensor& camera : cameras) {
+    cameras_.push_back(CameraModel::Create(camera.parameters));
+  }
+}
+
 FrameMeasurement RollingShutter::ToStamp(FrameMeasurement measurement,
-                                         const Eigen::Quaterniond& R_B_C, double readout) {
-  const Motion motion{ToSeconds(measurement.t_ns - t_ns_), readout,
-                      R_B_C.conjugate() * RateChange(measurement.imu, readout)};
-  MovePoints(motion, &measurement.points.points);
+                                         const std::vector<Eigen::Quaterniond>& R_B_C,
+                                         double readout) {
+  const double interval = ToSeconds(measurement.t_ns - t_ns_);
+  const Eigen::Vector3d rate_change_B = RateChange(measurement.imu, readout);
+  std::vector<Motion> motions;
+  for (size_t i = 0; i < cameras_.size(); ++i) {
+    motions.push_back({cameras_[i].get(), interval, readout, R_B_C[i].conjugate() * rate_change_B});
+  }
+  MovePoints(motions, &measurement.points.points);
   if (measurement.lines) {
-    MoveLines(motion, &measurement.lines->lines);
+    MoveLines(motions, &measurement.lines->lines);
   } else {
     lines_.clear();
   }
@@ -61,63 +72,81 @@ FrameMeasurement RollingShutter::ToStamp(FrameMeasurement measurement,
   return measurement;
 }
 
-void RollingShutter::MovePoints(const Motion& motion, std::vector<PointObservation>* points) {
+void RollingShutter::MovePoints(const std::vector<Motion>& motions,
+                                std::vector<PointObservation>* points) {
   std::unordered_map<int64_t, TimedPosition> positions;
+  std::unordered_map<int64_t, Eigen::Vector2d> velocities;  // by id
   std::vector<PointObservation> moved;
   moved.reserve(points->size());
   for (PointObservation& point : *points) {
-    const TimedPosition now = TimedPositionOf(point);
-    positions.emplace(point.id, now);
-    const auto before = points_.find(point.id);
-    if (before == points_.end()) continue;
-    const auto velocity = Velocity(motion, before->second, now);
-    if (!velocity) continue;
-    point.velocity = *velocity;
-    point.xy -= now.share * motion.readout * *velocity;
-    if (point.right) *point.right -= now.share * motion.readout * *velocity;  // nearly the same row
+    const Motion& motion = motions[point.camera];
+    const TimedPosition now = TimedPositionOf(*motion.camera, point);
+    positions.emplace(TrackKey(point), now);
+    const auto before = points_.find(TrackKey(point));
+    if (before != points_.end()) {
+      const auto velocity = Velocity(motion, before->second, now);
+      if (velocity) velocities.emplace(point.id, *velocity);
+      if (!velocity) continue;
+      point.velocity = *velocity;
+    } else if (const auto other = velocities.find(point.id); other != velocities.end()) {
+      point.velocity = other->second;
+    } else {
+      continue;
+    }
+    point.xy -= now.share * motion.readout * point.velocity;
     moved.push_back(point);
   }
   points_ = std::move(positions);
   *points = std::move(moved);
 }
 
-void RollingShutter::MoveLines(const Motion& motion, std::vector<LineObservation>* lines) {
+void RollingShutter::MoveLines(const std::vector<Motion>& motions,
+                               std::vector<LineObservation>* lines) {
+  struct Shift {
+    Eigen::Vector2d start, end;
+  };
   std::unordered_map<int64_t, LineObservation> seen;
+  std::unordered_map<int64_t, Shift> shifts;  // by id
   std::vector<LineObservation> moved;
   moved.reserve(lines->size());
   for (const LineObservation& line : *lines) {
-    seen.emplace(line.id, line);
-    const auto before = lines_.find(line.id);
-    if (before == lines_.end()) continue;
-    const auto start = MoveEnd(motion, before->second, line.start);
-    const auto end = MoveEnd(motion, before->second, line.end);
-    if (!start || !end) continue;
-    LineObservation& at_stamp = moved.emplace_back(line);
-    at_stamp.start = *start;
-    at_stamp.end = *end;
-    if (!line.right) continue;
-    at_stamp.right->start += *start - line.start;
-    at_stamp.right->end += *end - line.end;
+    seen.emplace(TrackKey(line), line);
+    const auto before = lines_.find(TrackKey(line));
+    if (before != lines_.end()) {
+      const auto start = MoveEnd(motions[line.camera], before->second, line.start);
+      const auto end = MoveEnd(motions[line.camera], before->second, line.end);
+      if (!start || !end) continue;
+      moved.push_back(line);
+      moved.back().start = *start;
+      moved.back().end = *end;
+      shifts.emplace(line.id, Shift{*start - line.start, *end - line.end});
+    } else if (const auto other = shifts.find(line.id); other != shifts.end()) {
+      moved.push_back(line);
+      moved.back().start += other->second.start;
+      moved.back().end += other->second.end;
+    }
   }
   lines_ = std::move(seen);
   *lines = std::move(moved);
 }
 
-RollingShutter::TimedPosition RollingShutter::TimedPositionOf(const PointObservation& point) const {
-  return {point.xy, ReadoutShare(point.uv_px.y(), camera_->parameters().height)};
+RollingShutter::TimedPosition RollingShutter::TimedPositionOf(const CameraModel& camera,
+                                                              const PointObservation& point) {
+  return {point.xy, ReadoutShare(point.uv_px.y(), camera.parameters().height)};
 }
 
 std::optional<RollingShutter::TimedPosition> RollingShutter::TimedPositionOf(
-    const Eigen::Vector2d& xy) const {
-  const auto pixel = camera_->Project(xy.homogeneous());
+    const CameraModel& camera, const Eigen::Vector2d& xy) {
+  const auto pixel = camera.Project(xy.homogeneous());
   if (!pixel) return std::nullopt;
-  return TimedPosition{xy, ReadoutShare(pixel->y(), camera_->parameters().height)};
+  return TimedPosition{xy, ReadoutShare(pixel->y(), camera.parameters().height)};
 }
 
 std::optional<Eigen::Vector2d> RollingShutter::MoveEnd(const Motion& motion,
                                                        const LineObservation& before,
-                                                       const Eigen::Vector2d& end) const {
-  const auto now = TimedPositionOf(end), foot = TimedPositionOf(FootOnLine(before, end));
+                                                       const Eigen::Vector2d& end) {
+  const auto now = TimedPositionOf(*motion.camera, end);
+  const auto foot = TimedPositionOf(*motion.camera, FootOnLine(before, end));
   if (!now || !foot) return std::nullopt;
   const auto velocity = Velocity(motion, *foot, *now);
   if (!velocity) return std::nullopt;

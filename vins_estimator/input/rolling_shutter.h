@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/camera/camera_model.h"
+#include "common/config/sensor_config.h"
 #include "common/measurements.h"
 
 namespace plm_vins {
@@ -22,15 +23,17 @@ namespace plm_vins {
 // computed from the end's distance to the line in the previous image.
 //
 // Features that are new in an image have no velocity and are dropped: they would be off by pixels.
+// Those of a landmark that a camera with a lower number observes as well, in nearly the same row,
+// take over its velocity.
 class RollingShutter {
  public:
-  explicit RollingShutter(const CameraParameters& camera) : camera_(CameraModel::Create(camera)) {}
+  explicit RollingShutter(const std::vector<CameraSensor>& cameras);
 
   // Returns the measurement that a global shutter would have given at the timestamp, with the
-  // velocities of its points. `R_B_C` is the current estimate, `readout` the time from the first
-  // row to the last [s].
-  FrameMeasurement ToStamp(FrameMeasurement measurement, const Eigen::Quaterniond& R_B_C,
-                           double readout);
+  // velocities of its points. `R_B_C` are the current estimates by camera, `readout` the time from
+  // the first row to the last [s].
+  FrameMeasurement ToStamp(FrameMeasurement measurement,
+                           const std::vector<Eigen::Quaterniond>& R_B_C, double readout);
 
  private:
   // Position in an image, normalized and undistorted, and its time as a share of the readout.
@@ -40,24 +43,26 @@ class RollingShutter {
   };
   // Quantities common to all features of an image.
   struct Motion {
+    const CameraModel* camera;
     double interval;                // between the timestamps of the previous image and this one [s]
     double readout;                 // [s]
     Eigen::Vector3d rate_change_C;  // angular rate now minus its mean over the interval [rad/s]
   };
 
-  void MovePoints(const Motion& motion, std::vector<PointObservation>* points);
-  void MoveLines(const Motion& motion, std::vector<LineObservation>* lines);
-  TimedPosition TimedPositionOf(const PointObservation& point) const;
+  void MovePoints(const std::vector<Motion>& motions, std::vector<PointObservation>* points);
+  void MoveLines(const std::vector<Motion>& motions, std::vector<LineObservation>* lines);
+  static TimedPosition TimedPositionOf(const CameraModel& camera, const PointObservation& point);
   // Returns nullopt outside the camera model's range.
-  std::optional<TimedPosition> TimedPositionOf(const Eigen::Vector2d& xy) const;
+  static std::optional<TimedPosition> TimedPositionOf(const CameraModel& camera,
+                                                      const Eigen::Vector2d& xy);
   // Moves an end of a line to the timestamp; `before` is the line in the previous image.
-  std::optional<Eigen::Vector2d> MoveEnd(const Motion& motion, const LineObservation& before,
-                                         const Eigen::Vector2d& end) const;
+  static std::optional<Eigen::Vector2d> MoveEnd(const Motion& motion, const LineObservation& before,
+                                                const Eigen::Vector2d& end);
   static std::optional<Eigen::Vector2d> Velocity(const Motion& motion, const TimedPosition& before,
                                                  const TimedPosition& now);
 
-  std::shared_ptr<const CameraModel> camera_;
-  // Previous image, as observed.
+  std::vector<std::shared_ptr<const CameraModel>> cameras_;
+  // Previous frame, as observed; by TrackKey().
   int64_t t_ns_ = 0;
   std::unordered_map<int64_t, TimedPosition> points_;
   std::unordered_map<int64_t, LineObservation> lines_;

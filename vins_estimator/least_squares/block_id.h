@@ -14,13 +14,12 @@ enum class BlockKind : uint8_t {
   kPoint,
   kLine,
   kIntrinsics,
-  kMounting,
-  kDepthStream,
-  kRightIntrinsics
+  kDepthStream
 };
 
 // Persistent identifier of a variable, independent of where its values are stored: a frame's pose
-// or motion by the frame's time, a landmark by its id, the calibration by 0.
+// or motion by the frame's time, a landmark by its id, extrinsics and intrinsics by the number of
+// the camera, time offset and depth stream by 0.
 struct BlockId {
   BlockKind kind = BlockKind::kPose;
   int64_t key = 0;

@@ -105,10 +105,10 @@ Eigen::MatrixXd NormalEquations::Covariance(const std::vector<BlockId>& ids) {
 
   std::vector<int> rows;
   for (const BlockId& id : ids) {
-    const int variable = problem_.Find(id);
-    if (variable < 0 || DenseOffset(variable) < 0) {
+    if (!IsDense(id)) {
       throw std::invalid_argument("covariance requested for a variable that is not dense");
     }
+    const int variable = problem_.Find(id);
     const int size = problem_.variables()[variable].type().tangent_size;
     for (int i = 0; i < size; ++i) rows.push_back(DenseOffset(variable) + i);
   }

@@ -51,6 +51,12 @@ class NormalEquations {
   double DenseGain(const Eigen::VectorXd& step, double damping) const;
   double LandmarkGain(int index, const LandmarkVector& step, double damping) const;
 
+  // Returns whether a variable of the problem is neither constant nor a landmark.
+  bool IsDense(const BlockId& id) const {
+    const int variable = problem_.Find(id);
+    return variable >= 0 && DenseOffset(variable) >= 0;
+  }
+
   // Returns the joint covariance of dense variables, in the given order, at the last linearization;
   // empty if they are unobservable. Throws std::invalid_argument for landmarks, constants and
   // variables that are not in the problem.

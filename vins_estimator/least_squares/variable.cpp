@@ -70,11 +70,6 @@ const VariableType& IntrinsicsVariable() {
   return type;
 }
 
-const VariableType& MountingVariable() {
-  static const VariableType type{kPoseSize, kPoseTangentSize, &MountingPlus, &MountingMinus};
-  return type;
-}
-
 const VariableType& DepthStreamVariable() {
   static const VariableType type = VectorVariable<kDepthStreamSize>();
   return type;
@@ -97,10 +92,7 @@ const VariableType& VariableTypeOf(BlockKind kind) {
     case BlockKind::kLine:
       return LineVariable();
     case BlockKind::kIntrinsics:
-    case BlockKind::kRightIntrinsics:
       return IntrinsicsVariable();
-    case BlockKind::kMounting:
-      return MountingVariable();
     case BlockKind::kDepthStream:
       return DepthStreamVariable();
     default:

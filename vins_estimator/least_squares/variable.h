@@ -18,14 +18,13 @@ struct VariableType {
 
 constexpr int kMaxAmbientSize = 9;
 
-const VariableType& PoseVariable();    // 7 -> 6
+const VariableType& PoseVariable();    // 7 -> 6: poses of frames, extrinsics of cameras
 const VariableType& MotionVariable();  // 9, vector space
 const VariableType& ScalarVariable();  // 1, vector space: time offset
 // 3, vector space: image point and inverse depth in the host; the inverse depth stays positive.
 const VariableType& PointVariable();
 // 8, vector space: camera intrinsics; focal lengths stay positive.
 const VariableType& IntrinsicsVariable();
-const VariableType& MountingVariable();  // 7 -> 6: second camera in the first (factors/manifolds.h)
 // 2, vector space: scale and delay of a depth stream (geometry/depth_stream.h).
 const VariableType& DepthStreamVariable();
 const VariableType& LineVariable();  // 5 -> 4: orthonormal representation (geometry/plucker.h)

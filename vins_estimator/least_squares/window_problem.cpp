@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/least_squares/window_problem.h"
 
+#include <stdexcept>
+
 namespace plm_vins {
 
 int WindowProblem::AddVariable(const BlockId& id, double* values, bool constant,
@@ -13,6 +15,12 @@ int WindowProblem::AddVariable(const BlockId& id, double* values, bool constant,
 int WindowProblem::AddLandmark(const BlockId& id, double* values) {
   landmarks_.push_back({AddVariable(id, values), std::pmr::vector<ResidualTerm>(&memory_)});
   return static_cast<int>(landmarks_.size()) - 1;
+}
+
+void WindowProblem::CheckCount(const Factor& factor, const TermVariables& variables) {
+  if (variables.count != factor.num_blocks()) {
+    throw std::logic_error("a term needs one variable for each block of its factor");
+  }
 }
 
 int WindowProblem::Find(const BlockId& id) const {

@@ -3,8 +3,8 @@
 
 #include <ceres/loss_function.h>
 
-#include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <memory_resource>
 #include <type_traits>
 #include <unordered_map>
@@ -17,10 +17,23 @@ namespace plm_vins {
 
 class MarginalizationPrior;
 
+// Variables of a term, in the order of its factor's blocks: indices of WindowProblem::variables().
+struct TermVariables {
+  static constexpr int kMax = 7;
+
+  TermVariables(std::initializer_list<int> variables) {
+    for (const int variable : variables) Add(variable);
+  }
+  void Add(int variable) { indices.at(count++) = variable; }
+
+  std::array<int, kMax> indices = {};
+  int count = 0;
+};
+
 // One term 0.5 rho(|r|^2) of the cost. Jacobians of the factor follow factors/manifolds.h: with
 // respect to the tangent space and padded with zero columns to the ambient size.
 struct ResidualTerm {
-  static constexpr int kMaxVariables = 7;
+  static constexpr int kMaxVariables = TermVariables::kMax;
 
   const Factor* cost = nullptr;
   const ceres::LossFunction* loss = nullptr;      // null: squared loss
@@ -50,17 +63,17 @@ class WindowProblem {
 
   // Adds a term with one variable for each block of the factor. The factor is copied; the loss must
   // outlive the problem.
-  template <typename FactorType, int kCount>
+  template <typename FactorType>
   void AddTerm(const FactorType& factor, const ceres::LossFunction* loss,
-               const int (&variables)[kCount]) {
+               const TermVariables& variables) {
     terms_.push_back(MakeTerm(factor, loss, variables));
   }
 
   // Adds a landmark and, below, its terms. Returns the landmark's index.
   int AddLandmark(const BlockId& id, double* values);
-  template <typename FactorType, int kCount>
+  template <typename FactorType>
   void AddLandmarkTerm(int landmark, const FactorType& factor, const ceres::LossFunction* loss,
-                       const int (&variables)[kCount]) {
+                       const TermVariables& variables) {
     landmarks_[landmark].terms.push_back(MakeTerm(factor, loss, variables));
   }
   void ReserveLandmarkTerms(int landmark, size_t count) {
@@ -87,14 +100,15 @@ class WindowProblem {
     return new (memory_.allocate(sizeof(FactorType), alignof(FactorType))) FactorType(factor);
   }
 
-  template <typename FactorType, int kCount>
+  template <typename FactorType>
   ResidualTerm MakeTerm(const FactorType& factor, const ceres::LossFunction* loss,
-                        const int (&variables)[kCount]) {
-    static_assert(kCount == FactorType::kBlocks && kCount <= ResidualTerm::kMaxVariables);
-    ResidualTerm term{Keep(factor), loss, {}, kCount};
-    std::copy(variables, variables + kCount, term.variables.begin());
-    return term;
+                        const TermVariables& variables) {
+    CheckCount(factor, variables);
+    return {Keep(factor), loss, variables.indices, variables.count};
   }
+
+  // Throws std::logic_error unless there is one variable for each block.
+  static void CheckCount(const Factor& factor, const TermVariables& variables);
 
   std::pmr::monotonic_buffer_resource memory_{kUsualSize};
   std::vector<Variable> variables_;

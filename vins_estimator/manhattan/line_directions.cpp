@@ -10,8 +10,7 @@ std::vector<LineDirection> LineDirections(const SlidingWindow& window, const Lin
   std::vector<LineDirection> directions;
   for (const auto& [id, landmark] : lines.landmarks()) {
     if (!landmark.triangulated) continue;
-    const auto fit =
-        EvaluateLine(ObservationsOf(landmark.views, window), noise, landmark.coordinates);
+    const auto fit = EvaluateLine(PosedOfHostCamera(landmark, window), noise, landmark.coordinates);
     if (!fit) continue;
     const PluckerLine line_W = LineInWorld(landmark, window);
     directions.push_back({id, line_W.direction.normalized(), DirectionDeviation(*fit)});

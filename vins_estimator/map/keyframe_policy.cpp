@@ -13,9 +13,9 @@ struct TrackedPoints {
   double mean_parallax = 0;
 };
 
-const PointView* FindView(const PointLandmark& landmark, int64_t t_ns) {
-  for (auto view = landmark.views.rbegin(); view != landmark.views.rend(); ++view) {
-    if (view->t_ns == t_ns) return &*view;
+const PointLandmark::Observation* Find(const PointLandmark& landmark, const ImageKey& image) {
+  for (auto it = landmark.observations.rbegin(); it != landmark.observations.rend(); ++it) {
+    if (*it == image) return &*it;
   }
   return nullptr;
 }
@@ -24,12 +24,13 @@ TrackedPoints Compare(const PointMap& points, int64_t before_ns, int64_t newest_
   TrackedPoints result;
   double sum = 0;
   for (const auto& [id, landmark] : points.landmarks()) {
-    if (landmark.views.back().t_ns != newest_ns) continue;
+    const PointLandmark::Observation& newest = landmark.observations[FirstInNewest(landmark)];
+    if (newest.t_ns != newest_ns) continue;
     ++result.in_newest;
-    const PointView* before = FindView(landmark, before_ns);
+    const PointLandmark::Observation* before = Find(landmark, {before_ns, newest.camera});
     if (before == nullptr) continue;
     ++result.in_both;
-    sum += (landmark.views.back().bearing.xy - before->bearing.xy).norm();
+    sum += (newest.bearing.xy - before->bearing.xy).norm();
   }
   if (result.in_both > 0) result.mean_parallax = sum / result.in_both;
   return result;

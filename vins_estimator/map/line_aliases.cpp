@@ -2,6 +2,7 @@
 #include "vins_estimator/map/line_aliases.h"
 
 #include <stdexcept>
+#include <utility>
 
 namespace plm_vins {
 namespace {
@@ -26,13 +27,14 @@ int64_t LineAliases::Resolve(int64_t id) const {
 
 LineFrame LineAliases::Redirect(const LineFrame& frame) {
   ++image_;
-  std::map<int64_t, LineObservation> longest;
+  std::map<std::pair<int, int64_t>, LineObservation> longest;  // by camera and landmark
   for (const LineObservation& line : frame.lines) {
     const auto alias = aliases_.find(line.id);
     if (alias != aliases_.end()) alias->second.last_seen = image_;
     LineObservation redirected = line;
     redirected.id = Resolve(line.id);
-    const auto [place, is_first] = longest.emplace(redirected.id, redirected);
+    const auto [place, is_first] =
+        longest.emplace(std::pair(line.camera, redirected.id), redirected);
     if (!is_first && Length(redirected) > Length(place->second)) place->second = redirected;
   }
   for (auto it = aliases_.begin(); it != aliases_.end();) {
@@ -40,7 +42,7 @@ LineFrame LineAliases::Redirect(const LineFrame& frame) {
   }
   LineFrame result;
   result.t_ns = frame.t_ns;
-  for (const auto& [id, line] : longest) result.lines.push_back(line);
+  for (const auto& [key, line] : longest) result.lines.push_back(line);
   return result;
 }
 

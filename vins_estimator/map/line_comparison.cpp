@@ -27,8 +27,8 @@ std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaternion
   const auto segment = ObservedSegment(line, window);
   if (!segment) return std::nullopt;
   SeenLine seen{R_F_W * segment->start_W, R_F_W * segment->end_W, line.axis};
-  if (!HasEnoughViews(line)) return seen;
-  const auto observations = ObservationsOf(line.views, window);
+  if (!HasEnoughObservations(line)) return seen;
+  const auto observations = PosedOfHostCamera(line, window);
   const auto fit = EvaluateLine(observations, noise, line.coordinates);
   if (!fit) return std::nullopt;
   const Eigen::Vector3d middle_W = 0.5 * (segment->start_W + segment->end_W);
@@ -39,8 +39,8 @@ std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaternion
 }
 
 double DistanceInImage(const SlidingWindow& window, const PluckerLine& line_W,
-                       const LineView& view) {
-  const auto distances = DistancesOf(view, line_W, window);
+                       const LineLandmark::Observation& observation) {
+  const auto distances = DistancesOf(observation, line_W, window);
   return distances ? distances->cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
 }
 

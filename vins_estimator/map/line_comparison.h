@@ -10,6 +10,7 @@
 #include "common/config/estimator_config.h"
 #include "vins_estimator/geometry/line_pairs.h"
 #include "vins_estimator/geometry/plucker.h"
+#include "vins_estimator/map/landmark_map.h"
 #include "vins_estimator/map/line_landmark.h"
 #include "vins_estimator/map/sliding_window.h"
 
@@ -37,7 +38,9 @@ enum class LineDifference { kNone, kDirection, kDistance, kGap };
 LineDifference FindDifference(const SameLineLimits& limits, const LinePairGeometry& pair);
 
 // Returns whether the observations suffice to estimate the line's covariance.
-inline bool HasEnoughViews(const LineLandmark& line) { return line.views.size() >= 3; }
+inline bool HasEnoughObservations(const LineLandmark& line) {
+  return OfHostCamera(line).size() >= 3;
+}
 
 // Returns the observed segment of a triangulated line in a frame F, with its standard deviations,
 // which are zero if there are too few observations to estimate them. Returns nullopt if the line
@@ -48,6 +51,6 @@ std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaternion
 // Returns the greater distance of a segment's end points from the projection of a line, normalized.
 // Infinite if the line has no projection.
 double DistanceInImage(const SlidingWindow& window, const PluckerLine& line_W,
-                       const LineView& view);
+                       const LineLandmark::Observation& observation);
 
 }  // namespace plm_vins

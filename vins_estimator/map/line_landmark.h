@@ -1,65 +1,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
-#include "common/measurements.h"
 #include "vins_estimator/geometry/line_segment_view.h"
 #include "vins_estimator/geometry/plucker.h"
+#include "vins_estimator/map/image_key.h"
 #include "vins_estimator/state/line_axis.h"
 
 namespace plm_vins {
 
-// Observation of a line in one image.
-struct LineView {
-  int64_t t_ns = 0;  // identifies the frame
-  LineSegmentView segment;
-  std::optional<RightSegment> right = {};  // in the second camera at the same time
-
-  void ForgetDepth() { right.reset(); }
-  int CountMeasurements() const { return 1 + right.has_value(); }
-};
-
-inline double Length(const LineView& view) {
-  return (view.segment.end - view.segment.start).norm();
-}
-
 // A line track over the frames of the window, and the line in space. The first observation is the
 // host, in whose camera frame the coordinates are.
 struct LineLandmark {
+  struct Observation : ImageKey {
+    LineSegmentView segment;
+    // Standard deviations of start and end across the line, normalized; zero for the noise of
+    // lines.
+    Eigen::Vector2d deviation = Eigen::Vector2d::Zero();
+
+    // Returns one over the deviations; `weight` if none are stated.
+    Eigen::Vector2d Weights(double weight) const {
+      if (deviation.isZero(0)) return Eigen::Vector2d::Constant(weight);
+      return deviation.cwiseInverse();
+    }
+    int CountMeasurements() const { return 1; }
+    void ForgetDepth() {}
+    double Length() const { return (segment.end - segment.start).norm(); }
+  };
+
   int64_t id = -1;
-  std::vector<LineView> views;  // by time
-  // Observations in anchors, by time, of a recognized line; optimized together with `views`.
-  std::vector<LineView> anchor_views;
+  std::vector<Observation> observations;  // by time and camera
+  // Observations in anchors, in the same order, of a recognized line; optimized together with
+  // `observations`.
+  std::vector<Observation> anchor_observations;
   OrthonormalLine coordinates = {0, 0, 0, 1, 0};
   bool triangulated = false;
   LineAxis axis = LineAxis::kFree;  // parallel axis, according to the observations so far
 
-  const LineView& host() const { return views.front(); }
+  const Observation& host() const { return observations.front(); }
 };
 
-constexpr size_t kMaxAnchorViews = 4;  // per line: the first and the newest
+constexpr size_t kMaxAnchorObservations = 4;  // per line: the first and the newest
 
-// Adds an anchor's observation, by time. Of two observations in one anchor the longer is kept.
-inline void AddAnchorView(const LineView& view, std::vector<LineView>* views) {
-  const auto is_earlier = [](const LineView& a, const LineView& b) { return a.t_ns < b.t_ns; };
-  const auto place = std::lower_bound(views->begin(), views->end(), view, is_earlier);
-  if (place != views->end() && place->t_ns == view.t_ns) {
-    if (Length(view) > Length(*place)) *place = view;
+// Adds an anchor's observation in its place. Of two observations in one image the longer is kept.
+inline void AddAnchorObservation(const LineLandmark::Observation& observation,
+                                 std::vector<LineLandmark::Observation>* observations) {
+  const auto place = std::lower_bound(observations->begin(), observations->end(), observation);
+  if (place != observations->end() && *place == observation) {
+    if (observation.Length() > place->Length()) *place = observation;
     return;
   }
-  views->insert(place, view);
-  if (views->size() > kMaxAnchorViews) views->erase(views->begin() + 1);
-}
-
-// Removes the observations in one frame.
-inline void RemoveViewsOf(int64_t t_ns, std::vector<LineView>* views) {
-  const auto is_of_frame = [t_ns](const LineView& view) { return view.t_ns == t_ns; };
-  views->erase(std::remove_if(views->begin(), views->end(), is_of_frame), views->end());
+  observations->insert(place, observation);
+  if (observations->size() > kMaxAnchorObservations) observations->erase(observations->begin() + 1);
 }
 
 }  // namespace plm_vins

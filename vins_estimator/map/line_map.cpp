@@ -4,24 +4,31 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace plm_vins {
 namespace {
 
 constexpr int kMinMeasurementsToTriangulate = 3;
-constexpr double kMaxRightNoise = 2.0;  // largest noise of a second-camera segment, over the noise
-constexpr double kMinSegment = 1e-3;    // normalized
-constexpr double kMinDistance = 1e-6;   // distance of a line from its host's camera [m]
+constexpr double kMaxNoiseRatio =
+    2.0;                               // largest stated noise of a segment, over the noise of lines
+constexpr double kMinSegment = 1e-3;   // normalized
+constexpr double kMinDistance = 1e-6;  // distance of a line from its host's camera [m]
+
+PosedLineObservation Posed(const LineLandmark::Observation& observation,
+                           const SlidingWindow& window) {
+  return {window.T_W_C(observation), observation.segment};
+}
 
 LineTriangulationResult TriangulateLandmark(const SlidingWindow& window,
                                             const LineTriangulationOptions& options,
                                             LineLandmark* landmark) {
-  std::vector<PosedLineObservation> observations = ObservationsOf(landmark->views, window);
-  for (const LineView& view : landmark->views) {
-    if (view.right && view.right->deviation.maxCoeff() < kMaxRightNoise * options.noise) {
-      observations.push_back({window.T_W_C1(view.t_ns), {view.right->start, view.right->end}});
-    }
+  std::vector<PosedLineObservation> observations;
+  observations.reserve(landmark->observations.size());
+  for (const LineLandmark::Observation& observation : landmark->observations) {
+    if (observation.deviation.maxCoeff() >= kMaxNoiseRatio * options.noise) continue;
+    observations.push_back(Posed(observation, window));
   }
   const TriangulatedLine triangulated = TriangulateLine(options, observations);
   landmark->triangulated = triangulated.result == LineTriangulationResult::kOk;
@@ -45,89 +52,88 @@ bool IsTooLong(const LineLandmark& landmark, const SlidingWindow& window, double
 }
 
 // Returns the mean square of the two residuals in units of the noise; infinite without projection.
-double MeanSquareError(const PluckerLine& line_W, const LineView& view, double noise,
-                       const SlidingWindow& window) {
-  const auto distances = DistancesOf(view, line_W, window);
+double MeanSquareError(const PluckerLine& line_W, const LineLandmark::Observation& observation,
+                       double noise, const SlidingWindow& window) {
+  const auto distances = DistancesOf(observation, line_W, window);
   if (!distances) return std::numeric_limits<double>::infinity();
   return 0.5 * distances->squaredNorm() / (noise * noise);
 }
 
 // Removes outliers among the observations in anchors. Returns the number of removed observations.
-int RemoveBadAnchorViews(const SlidingWindow& window, const LineLimits& limits,
-                         LineLandmark* landmark) {
+int RemoveBadAnchorObservations(const SlidingWindow& window, const LineLimits& limits,
+                                LineLandmark* landmark) {
   const PluckerLine line_W = LineInWorld(*landmark, window);
   const double limit = limits.max_view_error * limits.max_view_error;
-  std::vector<LineView>& views = landmark->anchor_views;
-  const size_t before = views.size();
-  views.erase(std::remove_if(views.begin(), views.end(),
-                             [&](const LineView& view) {
-                               return MeanSquareError(line_W, view, limits.triangulation.noise,
-                                                      window) > limit;
-                             }),
-              views.end());
-  return static_cast<int>(before - views.size());
+  const auto is_bad = [&](const LineLandmark::Observation& observation) {
+    return MeanSquareError(line_W, observation, limits.triangulation.noise, window) > limit;
+  };
+  return static_cast<int>(RemoveObservationsIf(is_bad, &landmark->anchor_observations));
 }
 
-// Removes outlier observations except the host's. Returns the number of removed observations, and
-// the mean square error of the remaining ones.
-int RemoveBadViews(const SlidingWindow& window, const LineLimits& limits, LineLandmark* landmark,
-                   double* mean_square) {
+// Removes outlier observations in the host's camera except the host. Returns their number, and the
+// mean square error of the remaining ones; infinite if only the host remains.
+std::pair<int, double> RemoveBadObservations(const SlidingWindow& window, const LineLimits& limits,
+                                             LineLandmark* landmark) {
   const PluckerLine line_W = LineInWorld(*landmark, window);
   const double limit = limits.max_view_error * limits.max_view_error;
-  const size_t before = landmark->views.size();
+  auto& observations = landmark->observations;
   double sum = 0;
-  for (size_t i = 0; i < landmark->views.size();) {
+  int removed = 0, count = 0;
+  for (size_t i = 0; i < observations.size();) {
+    if (observations[i].camera != landmark->host().camera) {
+      ++i;
+      continue;
+    }
     const double error =
-        MeanSquareError(line_W, landmark->views[i], limits.triangulation.noise, window);
+        MeanSquareError(line_W, observations[i], limits.triangulation.noise, window);
     if (i > 0 && error > limit) {
-      landmark->views.erase(landmark->views.begin() + i);
+      observations.erase(observations.begin() + i);
+      ++removed;
     } else {
       sum += error;
+      ++count;
       ++i;
     }
   }
-  *mean_square = sum / static_cast<double>(landmark->views.size());
-  return static_cast<int>(before - landmark->views.size());
+  return {removed, count > 1 ? sum / count : std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace
 
-void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark) {
-  const Rigid3d T_W_C = window.T_W_C(landmark->views[view].t_ns);
+void MoveHost(const SlidingWindow& window, size_t observation, LineLandmark* landmark) {
+  const Rigid3d T_W_C = window.T_W_C(landmark->observations[observation]);
   const PluckerLine line_C = T_W_C.Inverse() * LineInWorld(*landmark, window);
   const double direction = line_C.direction.norm();
   landmark->triangulated = direction > 0 && line_C.moment.norm() > kMinDistance * direction;
   if (landmark->triangulated) landmark->coordinates = ToOrthonormal(line_C);
 }
 
-void KeepOnlyView(const SlidingWindow& window, size_t view, LineLandmark* landmark) {
-  KeepOnlyView<LineLandmark>(window, view, landmark);
-  landmark->anchor_views.clear();
+void KeepNewestFrame(const SlidingWindow& window, LineLandmark* landmark) {
+  KeepNewestFrame<LineLandmark>(window, landmark);
+  landmark->anchor_observations.clear();
 }
 
-std::optional<Eigen::Vector2d> DistancesOf(const LineView& view, const PluckerLine& line_W,
-                                           const SlidingWindow& window) {
-  const PluckerLine line_C = window.T_W_C(view.t_ns).Inverse() * line_W;
+std::optional<Eigen::Vector2d> DistancesOf(const LineLandmark::Observation& observation,
+                                           const PluckerLine& line_W, const SlidingWindow& window) {
+  const PluckerLine line_C = window.T_W_C(observation).Inverse() * line_W;
   Eigen::Vector2d distances;
-  if (!EndPointDistances(view.segment, line_C.moment, &distances, nullptr)) return std::nullopt;
+  if (!EndPointDistances(observation.segment, line_C.moment, &distances, nullptr)) {
+    return std::nullopt;
+  }
   return distances;
 }
 
-PosedLineObservation ObservationOf(const LineView& view, const SlidingWindow& window) {
-  return {window.T_W_C(view.t_ns), view.segment};
-}
-
-std::vector<PosedLineObservation> ObservationsOf(const std::vector<LineView>& views,
-                                                 const SlidingWindow& window) {
-  std::vector<PosedLineObservation> observations;
-  observations.reserve(views.size());
-  for (const LineView& view : views) observations.push_back(ObservationOf(view, window));
-  return observations;
+std::vector<PosedLineObservation> PosedOfHostCamera(const LineLandmark& landmark,
+                                                    const SlidingWindow& window) {
+  std::vector<PosedLineObservation> posed;
+  for (const auto& observation : OfHostCamera(landmark)) {
+    posed.push_back(Posed(observation, window));
+  }
+  return posed;
 }
 
 PluckerLine LineInWorld(const LineLandmark& landmark, const SlidingWindow& window) {
-  const Rigid3d T_W_Ch = window.T_W_C(landmark.host().t_ns);
-  return T_W_Ch * ToPlucker(landmark.coordinates.data());
+  return window.T_W_C(landmark.host()) * ToPlucker(landmark.coordinates.data());
 }
 
 std::optional<MapLine> ObservedSegment(const LineLandmark& landmark, const SlidingWindow& window) {
@@ -135,9 +141,9 @@ std::optional<MapLine> ObservedSegment(const LineLandmark& landmark, const Slidi
   const Eigen::Vector3d foot = NearestToOrigin(line_W);
   const Eigen::Vector3d along = line_W.direction.normalized();
   double first = std::numeric_limits<double>::infinity(), last = -first;
-  for (const LineView& view : landmark.views) {
-    const Rigid3d T_W_C = window.T_W_C(view.t_ns);
-    const LineEnds ends_C = EndsOf(T_W_C.Inverse() * line_W, view.segment);
+  for (const PosedLineObservation& observation : PosedOfHostCamera(landmark, window)) {
+    const Rigid3d& T_W_C = observation.T_W_C;
+    const LineEnds ends_C = EndsOf(T_W_C.Inverse() * line_W, observation.segment);
     if (!IsInFront(ends_C)) return std::nullopt;
     for (const Eigen::Vector3d& end_C : {ends_C.start, ends_C.end}) {
       const double place = along.dot(T_W_C * end_C - foot);
@@ -153,7 +159,8 @@ void LineMap::AddFrame(const LineFrame& frame) {
     if (!((line.end - line.start).norm() > kMinSegment)) continue;
     LineLandmark& landmark = landmarks_[line.id];
     landmark.id = line.id;
-    landmark.views.push_back({frame.t_ns, {line.start, line.end}, line.right});
+    landmark.observations.push_back(
+        {{frame.t_ns, line.camera}, {line.start, line.end}, line.deviation});
   }
 }
 
@@ -163,7 +170,7 @@ LineTriangulationCounts LineMap::Triangulate(const SlidingWindow& window,
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {
     LineLandmark& landmark = it->second;
     if (landmark.triangulated ||
-        CountMeasurements(landmark.views) < kMinMeasurementsToTriangulate) {
+        CountMeasurements(landmark.observations) < kMinMeasurementsToTriangulate) {
       ++it;
       continue;
     }
@@ -193,46 +200,43 @@ int LineMap::RemoveOutliers(const SlidingWindow& window, const LineLimits& limit
   int removed = 0;
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {
     LineLandmark& landmark = it->second;
-    if (!landmark.triangulated || landmark.views.size() < 2) {
+    if (!landmark.triangulated || !IsInSeveralFrames(landmark)) {
       ++it;
       continue;
     }
-    double mean_square = 0;
-    removed += RemoveBadAnchorViews(window, limits, &landmark);
-    removed += RemoveBadViews(window, limits, &landmark, &mean_square);
+    removed += RemoveBadAnchorObservations(window, limits, &landmark);
+    const auto [bad, mean_square] = RemoveBadObservations(window, limits, &landmark);
     const auto segment = ObservedSegment(landmark, window);
     const double max_mean_error = limits.triangulation.max_mean_error;
-    const bool bad = !segment || Length(*segment) > limits.max_length ||
-                     landmark.views.size() < 2 || mean_square > max_mean_error * max_mean_error;
-    removed += bad;
-    const bool stays = !bad || StartWithoutDepth(&landmark);
+    const bool is_outlier = !segment || Length(*segment) > limits.max_length ||
+                            mean_square > max_mean_error * max_mean_error;
+    removed += bad + is_outlier;
+    const bool stays = !is_outlier || StartWithoutDepth(&landmark);
     it = stays ? std::next(it) : landmarks_.erase(it);
   }
   return removed;
 }
 
-std::vector<RightLineResidual> LineMap::RightResiduals(const SlidingWindow& window) {
-  std::vector<RightLineResidual> residuals;
-  for (auto& [id, landmark] : landmarks_) {
+std::vector<LineResidual> LineMap::ResidualsIn(int camera, double noise,
+                                               const SlidingWindow& window) const {
+  std::vector<LineResidual> residuals;
+  for (const auto& [id, landmark] : landmarks_) {
     if (!IsOptimized(landmark)) continue;
     const PluckerLine line_W = LineInWorld(landmark, window);
-    for (LineView& view : landmark.views) {
-      if (!view.right) continue;
-      const PluckerLine line_C1 = window.T_W_C1(view.t_ns).Inverse() * line_W;
-      Eigen::Vector2d distances;
-      if (EndPointDistances({view.right->start, view.right->end}, line_C1.moment, &distances,
-                            nullptr)) {
-        residuals.push_back({&view, distances.cwiseQuotient(view.right->deviation).norm()});
-      } else {
-        view.right.reset();
-      }
+    for (const LineLandmark::Observation& observation : landmark.observations) {
+      if (observation.camera != camera) continue;
+      const auto distances = DistancesOf(observation, line_W, window);
+      const double error = distances
+                               ? distances->cwiseProduct(observation.Weights(1 / noise)).norm()
+                               : std::numeric_limits<double>::infinity();
+      residuals.push_back({id, observation, landmark.host().camera == camera, error});
     }
   }
   return residuals;
 }
 
 void LineMap::RemoveAnchor(int64_t t_ns) {
-  for (auto& [id, landmark] : landmarks_) RemoveViewsOf(t_ns, &landmark.anchor_views);
+  for (auto& [id, landmark] : landmarks_) RemoveObservationsIn(t_ns, &landmark.anchor_observations);
 }
 
 }  // namespace plm_vins

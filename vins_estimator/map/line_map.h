@@ -24,10 +24,12 @@ struct LineLimits {
   double max_length;                       // between the ends [m]
 };
 
-// Residual of an observation in the second camera.
-struct RightLineResidual {
-  LineView* view;
-  double error;  // both ends together, in standard deviations
+// Residual of an observation after optimization.
+struct LineResidual {
+  int64_t id;  // of the landmark
+  ImageKey image;
+  bool is_in_host_camera;
+  double error;  // both ends together, in standard deviations; infinite without projection
 };
 
 // All line tracks with observations in the window. Every observation belongs to a frame of it.
@@ -43,14 +45,15 @@ class LineMap : public LandmarkMap<LineLandmark> {
   // Returns the optimized lines in the world, except those without an ObservedSegment().
   std::vector<MapLine> Optimized(const SlidingWindow& window) const;
 
-  // Checks all observations of the triangulated lines: removes outlier observations, and lines that
-  // are behind a camera, too long or have too large a mean error. Returns the number of removed
-  // lines and observations.
+  // Judges lines by their observations in the host's camera: removes outlier observations, and
+  // lines that are behind it, too long or have too large a mean error. Returns the number of
+  // removed lines and observations.
   int RemoveOutliers(const SlidingWindow& window, const LineLimits& limits);
 
-  // Returns the residuals of the optimized lines in the second camera; drops its observations of
-  // lines that have no image in it.
-  std::vector<RightLineResidual> RightResiduals(const SlidingWindow& window);
+  // Returns the residuals of the optimized lines in the images of a camera. `noise` is the standard
+  // deviation of an end point that states none.
+  std::vector<LineResidual> ResidualsIn(int camera, double noise,
+                                        const SlidingWindow& window) const;
 
   // Removes the observations in an anchor.
   void RemoveAnchor(int64_t t_ns);
@@ -58,26 +61,25 @@ class LineMap : public LandmarkMap<LineLandmark> {
 
 // Transforms a triangulated line to the camera of another of its observations; marks it as not
 // triangulated if it passes through that camera.
-void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark);
+void MoveHost(const SlidingWindow& window, size_t observation, LineLandmark* landmark);
 
-// Keeps a single observation of a line, which becomes its host.
-void KeepOnlyView(const SlidingWindow& window, size_t view, LineLandmark* landmark);
+// Keeps the observations in the newest frame only, the first of which becomes the host.
+void KeepNewestFrame(const SlidingWindow& window, LineLandmark* landmark);
 
-// Returns observations of a line together with their cameras' poses.
-PosedLineObservation ObservationOf(const LineView& view, const SlidingWindow& window);
-std::vector<PosedLineObservation> ObservationsOf(const std::vector<LineView>& views,
-                                                 const SlidingWindow& window);
+// Returns the observations by the host's camera together with its poses.
+std::vector<PosedLineObservation> PosedOfHostCamera(const LineLandmark& landmark,
+                                                    const SlidingWindow& window);
 
 // Returns the distances of the start and end of an observation from the projection of a line,
 // normalized; nullopt if there is no projection.
-std::optional<Eigen::Vector2d> DistancesOf(const LineView& view, const PluckerLine& line_W,
-                                           const SlidingWindow& window);
+std::optional<Eigen::Vector2d> DistancesOf(const LineLandmark::Observation& observation,
+                                           const PluckerLine& line_W, const SlidingWindow& window);
 
 // Returns a triangulated line in the world.
 PluckerLine LineInWorld(const LineLandmark& landmark, const SlidingWindow& window);
 
-// Returns the segment of a triangulated line that its observations cover together, in the world;
-// nullopt if an end is behind a camera that observed it.
+// Returns the segment of a triangulated line that the observations by the host's camera cover
+// together, in the world; nullopt if an end is behind it.
 std::optional<MapLine> ObservedSegment(const LineLandmark& landmark, const SlidingWindow& window);
 
 }  // namespace plm_vins

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "vins_estimator/map/landmark_map.h"
+
 namespace plm_vins {
 namespace {
 
@@ -36,26 +38,27 @@ void LineMemory::Keep(int64_t id, const SeenLine& line_W) {
   }
 }
 
-void LineMemory::KeepView(int64_t id, const LineView& anchor_view) {
+void LineMemory::KeepObservation(int64_t id, const LineLandmark::Observation& anchor_view) {
   const auto line = lines_.find(id);
-  if (line != lines_.end()) AddAnchorView(anchor_view, &line->second.anchor_views);
+  if (line != lines_.end()) AddAnchorObservation(anchor_view, &line->second.anchor_observations);
 }
 
 void LineMemory::Join(int64_t newer, int64_t older) {
   const auto joined = lines_.extract(newer);
   if (joined.empty()) return;
   Keep(older, joined.mapped().seen_W);
-  for (const LineView& view : joined.mapped().anchor_views) KeepView(older, view);
+  for (const LineLandmark::Observation& observation : joined.mapped().anchor_observations)
+    KeepObservation(older, observation);
 }
 
-void LineMemory::ChangeViews(const std::function<void(LineView*)>& change) {
+void LineMemory::ChangeObservations(const std::function<void(LineLandmark::Observation*)>& change) {
   for (auto& [id, line] : lines_) {
-    for (LineView& view : line.anchor_views) change(&view);
+    for (LineLandmark::Observation& observation : line.anchor_observations) change(&observation);
   }
 }
 
 void LineMemory::RemoveAnchor(int64_t t_ns) {
-  for (auto& [id, line] : lines_) RemoveViewsOf(t_ns, &line.anchor_views);
+  for (auto& [id, line] : lines_) RemoveObservationsIn(t_ns, &line.anchor_observations);
 }
 
 const RememberedLine* LineMemory::Find(int64_t id) const {

@@ -14,9 +14,9 @@ namespace plm_vins {
 
 // A line whose observations have been marginalized.
 struct RememberedLine {
-  SeenLine seen_W;                     // the observed part; F is W
-  std::vector<LineView> anchor_views;  // observations by anchor frames, in temporal order
-  int64_t note = 0;                    // sequence number of its last update
+  SeenLine seen_W;                                             // the observed part; F is W
+  std::vector<LineLandmark::Observation> anchor_observations;  // by anchor frames, ordered
+  int64_t note = 0;                                            // sequence number of its last update
 };
 
 // Remembers lines that have left the window, so that re-observed lines are recognized. Holds at
@@ -30,13 +30,13 @@ class LineMemory {
   void Keep(int64_t id, const SeenLine& line_W);
 
   // Adds an anchor's observation of a line; ignored if the line is unknown.
-  void KeepView(int64_t id, const LineView& anchor_view);
+  void KeepObservation(int64_t id, const LineLandmark::Observation& anchor_view);
 
   // Merges two ids of the same line: the older id takes over the observations of the newer.
   void Join(int64_t newer, int64_t older);
 
   // Modifies all observations by anchors.
-  void ChangeViews(const std::function<void(LineView*)>& change);
+  void ChangeObservations(const std::function<void(LineLandmark::Observation*)>& change);
 
   // Removes the observations by an anchor.
   void RemoveAnchor(int64_t t_ns);

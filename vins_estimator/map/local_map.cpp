@@ -62,7 +62,7 @@ void LocalMap::AbsorbLine(int64_t newer, const LineLandmark& joint) {
 void LocalMap::ReviveLine(int64_t newer, int64_t older) {
   auto landmark = lines.landmarks().extract(newer);
   landmark.key() = landmark.mapped().id = older;
-  landmark.mapped().anchor_views = memory.lines().at(older).anchor_views;
+  landmark.mapped().anchor_observations = memory.lines().at(older).anchor_observations;
   lines.landmarks().insert(std::move(landmark));
   aliases.Add(newer, older);
 }
@@ -76,10 +76,10 @@ void LocalMap::RememberDeparting(int64_t frame_ns, bool stays_as_anchor) {
   for (const auto& [id, landmark] : lines.landmarks()) {
     if (!LeavesWith(frame_ns, landmark) || !landmark.triangulated) continue;
     const auto seen_W = See(window, Eigen::Quaterniond::Identity(), options.line_noise, landmark);
-    if (seen_W && HasEnoughViews(landmark) && seen_W->place_sigma < kMaxPlaceSigma) {
+    if (seen_W && HasEnoughObservations(landmark) && seen_W->place_sigma < kMaxPlaceSigma) {
       memory.Keep(id, *seen_W);
     }
-    if (stays_as_anchor) memory.KeepView(id, landmark.host());
+    if (stays_as_anchor) memory.KeepObservation(id, landmark.host());
   }
 }
 

@@ -6,14 +6,16 @@ namespace plm_vins {
 std::vector<PixelResidual> PixelResiduals(const LocalMap& map, int64_t t_ns,
                                           const CameraParameters& camera) {
   const SlidingWindow& window = map.window;
-  const auto model = CameraModel::Create(camera.With(window.ray_intrinsics));
-  const Rigid3d T_C_W = window.T_W_C(t_ns).Inverse();
+  constexpr int kCamera = 0;
+  const auto model = CameraModel::Create(camera.With(window.cameras[kCamera].ray_intrinsics));
+  const ImageKey image{t_ns, kCamera};
+  const Rigid3d T_C_W = window.T_W_C(image).Inverse();
   std::vector<PixelResidual> residuals;
   for (const auto& [id, point] : map.points.landmarks()) {
     if (!IsOptimized(point)) continue;
-    for (const PointView& view : point.views) {
-      if (view.t_ns != t_ns) continue;
-      const auto observed = model->Project(window.AtState(view.bearing).homogeneous());
+    for (const PointLandmark::Observation& observation : point.observations) {
+      if (!(observation == image)) continue;
+      const auto observed = model->Project(window.AtState(observation.bearing).homogeneous());
       const auto predicted = model->Project(T_C_W * PositionInWorld(point, window));
       if (observed && predicted) residuals.push_back({*observed, *predicted - *observed});
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/median.h"
@@ -15,21 +16,24 @@ namespace {
 constexpr int kMinMeasurementsToTriangulate = 2;
 constexpr size_t kMinPoints = 10;  // fewer do not represent the scene
 
-PosedPointObservation ObservationOf(const PointView& view, const SlidingWindow& window) {
-  return {window.T_W_C(view.t_ns), window.AtState(view.bearing)};
+PosedPointObservation Posed(const PointLandmark::Observation& observation,
+                            const SlidingWindow& window) {
+  return {window.T_W_C(observation), window.AtState(observation.bearing)};
 }
 
-// Returns the observation by the second camera, which must exist.
-PosedPointObservation RightObservationOf(const PointView& view, const SlidingWindow& window) {
-  return {window.T_W_C1(view.t_ns), window.AtState(view.RightBearing())};
+std::vector<PosedPointObservation> Posed(
+    const std::vector<PointLandmark::Observation>& observations, const SlidingWindow& window) {
+  std::vector<PosedPointObservation> posed;
+  posed.reserve(observations.size());
+  for (const auto& observation : observations) posed.push_back(Posed(observation, window));
+  return posed;
 }
 
-// Sets the coordinates of a landmark in the camera of one of its observations; marks it as not
-// triangulated if it is behind that camera.
-void SetPosition(const Eigen::Vector3d& p_W, const SlidingWindow& window, const PointView& view,
+// Sets the coordinates of a landmark in the camera of an image; marks it as not triangulated if it
+// is behind that camera.
+void SetPosition(const Eigen::Vector3d& p_W, const SlidingWindow& window, const ImageKey& image,
                  PointLandmark* landmark) {
-  const Rigid3d T_W_C = window.T_W_C(view.t_ns);
-  const Eigen::Vector3d p_C = T_W_C.Inverse() * p_W;
+  const Eigen::Vector3d p_C = window.T_W_C(image).Inverse() * p_W;
   landmark->triangulated = p_C.z() > kMinLandmarkDepth;
   if (landmark->triangulated) {
     landmark->coordinates = {p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1.0 / p_C.z()};
@@ -39,107 +43,129 @@ void SetPosition(const Eigen::Vector3d& p_W, const SlidingWindow& window, const 
 // Returns the position at the first measured depth; nullopt without one.
 std::optional<Eigen::Vector3d> AtMeasuredDepth(const PointLandmark& landmark,
                                                const SlidingWindow& window) {
-  for (const PointView& view : landmark.views) {
-    if (!view.depth || *view.depth < kMinTriangulatedDepth) continue;
-    const PosedPointObservation observation = ObservationOf(view, window);
-    return observation.T_W_C * (*view.depth * observation.xy.homogeneous());
+  for (const PointLandmark::Observation& observation : landmark.observations) {
+    if (!observation.depth || *observation.depth < kMinTriangulatedDepth) continue;
+    const PosedPointObservation posed = Posed(observation, window);
+    return posed.T_W_C * (*observation.depth * posed.xy.homogeneous());
   }
   return std::nullopt;
 }
 
-std::vector<PosedPointObservation> WithRightObservations(
-    std::vector<PosedPointObservation> observations, const PointLandmark& landmark,
-    const SlidingWindow& window) {
-  for (const PointView& view : landmark.views) {
-    if (view.right) observations.push_back(RightObservationOf(view, window));
-  }
-  return observations;
-}
-
+// Observations by other cameras than the host's may be wrong matches: tries without them as well.
 void TriangulateLandmark(const SlidingWindow& window, double min_angle, PointLandmark* landmark) {
-  std::vector<PosedPointObservation> observations;
-  observations.reserve(landmark->views.size());
-  for (const PointView& view : landmark->views) observations.push_back(ObservationOf(view, window));
-  const std::vector<PosedPointObservation> all =
-      WithRightObservations(observations, *landmark, window);
-  auto p_W = TriangulatePoint(all, min_angle);
-  if (!p_W && all.size() > observations.size()) p_W = TriangulatePoint(observations, min_angle);
+  auto p_W = TriangulatePoint(Posed(landmark->observations, window), min_angle);
+  if (!p_W) {
+    const auto own = OfHostCamera(*landmark);
+    if (own.size() < landmark->observations.size()) {
+      p_W = TriangulatePoint(Posed(own, window), min_angle);
+    }
+  }
   if (!p_W) p_W = AtMeasuredDepth(*landmark, window);
   if (p_W) SetPosition(*p_W, window, landmark->host(), landmark);
 }
 
 double TimeSeen(const PointLandmark& landmark) {
-  return ToSeconds(landmark.views.back().t_ns - landmark.views.front().t_ns);
+  return ToSeconds(landmark.observations.back().t_ns - landmark.host().t_ns);
 }
 
-// Returns the common motion [rad/s] of the points in the newest image that are not triangulated:
-// the median from the first observation of each, without the rotation of the window. Zero for few.
+// Returns the common motion [rad/s] of the points in the newest image of the first camera that are
+// not triangulated: the median from the first observation of each, without the rotation of the
+// window. Zero for few.
 double CommonMotion(const PointMap::Landmarks& landmarks, const SlidingWindow& window) {
-  std::vector<double> right, down;
+  std::vector<double> x_rates, y_rates;
   for (const auto& [id, landmark] : landmarks) {
-    if (landmark.triangulated || landmark.views.size() < 2) continue;
-    if (landmark.views.back().t_ns != window.newest().state.t_ns) continue;
-    const PosedPointObservation host = ObservationOf(landmark.host(), window);
-    const PosedPointObservation newest = ObservationOf(landmark.views.back(), window);
+    if (landmark.triangulated || !IsInSeveralFrames(landmark)) continue;
+    const PointLandmark::Observation& last = landmark.observations[FirstInNewest(landmark)];
+    if (last.t_ns != window.newest().state.t_ns) continue;
+    if (landmark.host().camera != 0 || last.camera != 0) continue;
+    const PosedPointObservation host = Posed(landmark.host(), window);
+    const PosedPointObservation newest = Posed(last, window);
     const Eigen::Vector3d ray =
         newest.T_W_C.rotation.inverse() * (host.T_W_C.rotation * host.xy.homogeneous());
     const Eigen::Vector2d rate = (newest.xy - ray.hnormalized()) / TimeSeen(landmark);
-    right.push_back(rate.x());
-    down.push_back(rate.y());
+    x_rates.push_back(rate.x());
+    y_rates.push_back(rate.y());
   }
-  if (right.size() < kMinPoints) return 0;
-  return std::hypot(Median(std::move(right)), Median(std::move(down)));
+  if (x_rates.size() < kMinPoints) return 0;
+  return std::hypot(Median(std::move(x_rates)), Median(std::move(y_rates)));
 }
 
-// Returns whether a landmark is in front of the camera in all frames with a mean reprojection error
-// of at most `max_error`. Returns true without observations in a second camera or measured depths.
-bool Fits(const Eigen::Vector3d& p_W, const PointLandmark& landmark, double max_error,
-          const SlidingWindow& window) {
-  const size_t count = landmark.views.size();
-  if (CountMeasurements(landmark.views) == static_cast<int>(count)) return true;
-  double sum = 0;
-  for (const PointView& view : landmark.views) {
-    const auto error = ReprojectionError(p_W, view, window);
+// Returns whether a landmark is in front of the host's camera in all its images with a mean
+// reprojection error of at most `max_error`.
+bool FitsHostCamera(const Eigen::Vector3d& p_W, const PointLandmark& landmark, double max_error,
+                    const SlidingWindow& window) {
+  double sum = 0, count = 0;
+  for (const PointLandmark::Observation& observation : landmark.observations) {
+    if (observation.camera != landmark.host().camera) continue;
+    const auto error = ReprojectionError(p_W, observation, window);
     if (!error) return false;
     sum += *error;
+    ++count;
   }
-  return sum <= max_error * static_cast<double>(count);
+  return sum <= max_error * count;
+}
+
+// Removes outliers among the observations in the host's camera. Returns their number, and whether
+// the landmark is an outlier itself.
+std::pair<int, bool> RemoveBadObservations(const Eigen::Vector3d& p_W, double max_error,
+                                           const SlidingWindow& window, PointLandmark* landmark) {
+  const double inverse_depth = landmark->coordinates[2];
+  if (inverse_depth <= 0 || inverse_depth > 1.0 / kMinLandmarkDepth) return {0, true};
+  auto& observations = landmark->observations;
+  int removed = 0, count = 0;
+  double sum = 0;
+  for (size_t i = 1; i < observations.size();) {
+    const bool is_own = observations[i].camera == landmark->host().camera;
+    const std::optional<double> error =
+        is_own ? ReprojectionError(p_W, observations[i], window) : 0;
+    if (!error) return {removed, true};
+    if (*error > 2 * max_error) {
+      observations.erase(observations.begin() + i);
+      ++removed;
+      continue;
+    }
+    sum += *error;
+    count += is_own;
+    ++i;
+  }
+  return {removed, count == 0 || sum / count > max_error};
 }
 
 // Returns whether the depth of a landmark contradicts the depth measured in an observation.
-bool ContradictsDepth(const Eigen::Vector3d& p_W, const PointView& view, double max_error,
-                      const SlidingWindow& window) {
-  const double z = (window.T_W_C(view.t_ns).Inverse() * p_W).z();
-  const TimedDepth measured = window.DepthIn(view.t_ns, *view.depth);
+bool ContradictsDepth(const Eigen::Vector3d& p_W, const PointLandmark::Observation& observation,
+                      double max_error, const SlidingWindow& window) {
+  const double z = (window.T_W_C(observation).Inverse() * p_W).z();
+  const TimedDepth measured = window.DepthIn(observation, *observation.depth);
   const double expected = measured.Expected(1 / z, window.depth_stream.data());
   return !(std::abs(expected - 1 / measured.depth) <= max_error);
 }
 
 }  // namespace
 
-void MoveHost(const SlidingWindow& window, size_t view, PointLandmark* landmark) {
-  SetPosition(PositionInWorld(*landmark, window), window, landmark->views[view], landmark);
+void MoveHost(const SlidingWindow& window, size_t observation, PointLandmark* landmark) {
+  SetPosition(PositionInWorld(*landmark, window), window, landmark->observations[observation],
+              landmark);
 }
 
 Eigen::Vector3d PositionInWorld(const PointLandmark& landmark, const SlidingWindow& window) {
-  const Rigid3d T_W_Ch = window.T_W_C(landmark.host().t_ns);
-  return T_W_Ch * PointInHost(landmark.coordinates.data());
+  return window.T_W_C(landmark.host()) * PointInHost(landmark.coordinates.data());
 }
 
-std::optional<double> ReprojectionError(const Eigen::Vector3d& p_W, const PointView& view,
+std::optional<double> ReprojectionError(const Eigen::Vector3d& p_W,
+                                        const PointLandmark::Observation& observation,
                                         const SlidingWindow& window) {
-  const PosedPointObservation observation = ObservationOf(view, window);
-  const Eigen::Vector3d p_C = observation.T_W_C.Inverse() * p_W;
+  const PosedPointObservation posed = Posed(observation, window);
+  const Eigen::Vector3d p_C = posed.T_W_C.Inverse() * p_W;
   if (p_C.z() < kMinLandmarkDepth) return std::nullopt;
-  return (p_C.hnormalized() - observation.xy).norm();
+  return (p_C.hnormalized() - posed.xy).norm();
 }
 
 void PointMap::AddFrame(const PointFrame& frame, double cut_time_offset) {
   for (const PointObservation& point : frame.points) {
     PointLandmark& landmark = landmarks_[point.id];
     landmark.id = point.id;
-    landmark.views.push_back(
-        {frame.t_ns, {point.xy, point.velocity, cut_time_offset}, point.right, point.depth});
+    landmark.observations.push_back(
+        {{frame.t_ns, point.camera}, {point.xy, point.velocity, cut_time_offset}, point.depth});
   }
 }
 
@@ -150,7 +176,7 @@ void PointMap::Triangulate(const SlidingWindow& window, double min_angle,
       depth_is_unknown ? std::min(CommonMotion(landmarks_, window), unnoticed_turn_rate) : 0;
   for (auto& [id, landmark] : landmarks_) {
     if (landmark.triangulated ||
-        CountMeasurements(landmark.views) < kMinMeasurementsToTriangulate) {
+        CountMeasurements(landmark.observations) < kMinMeasurementsToTriangulate) {
       continue;
     }
     TriangulateLandmark(window, min_angle + turn_rate * TimeSeen(landmark), &landmark);
@@ -170,7 +196,7 @@ PointMap::Fit PointMap::FitOfNewest(const SlidingWindow& window, int64_t keyfram
   Fit fit;
   for (const auto& [id, landmark] : landmarks_) {
     if (!IsOptimizedInNewest(landmark, window) || !WasOptimizedAt(keyframe_ns, landmark)) continue;
-    const PointView& newest = landmark.views.back();
+    const PointLandmark::Observation& newest = landmark.observations[FirstInNewest(landmark)];
     const auto error = ReprojectionError(PositionInWorld(landmark, window), newest, window);
     ++fit.seen;
     fit.contradicted += !error || *error > max_error ? 1 : 0;
@@ -191,52 +217,35 @@ int PointMap::RemoveOutliers(const SlidingWindow& window, double max_error) {
   int removed = 0;
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {
     PointLandmark& landmark = it->second;
-    if (!landmark.triangulated || landmark.views.size() < 2) {
-      ++it;
-      continue;
-    }
-    const Eigen::Vector3d p_W = PositionInWorld(landmark, window);
-    if (!Fits(p_W, landmark, max_error, window) && StartWithoutDepth(&landmark)) {
-      ++removed;
-      ++it;
-      continue;
-    }
-    const double inverse_depth = landmark.coordinates[2];
-    bool bad = inverse_depth <= 0 || inverse_depth > 1.0 / kMinLandmarkDepth;
-    double sum = 0;
-    for (size_t i = 1; i < landmark.views.size() && !bad;) {
-      const auto error = ReprojectionError(p_W, landmark.views[i], window);
-      bad = !error;
-      if (error && *error > 2 * max_error) {
-        landmark.views.erase(landmark.views.begin() + i);
-        ++removed;
-        continue;
+    bool is_bad = false;
+    if (landmark.triangulated && IsInSeveralFrames(landmark)) {
+      const Eigen::Vector3d p_W = PositionInWorld(landmark, window);
+      if (MeasuresDepth(landmark) && !FitsHostCamera(p_W, landmark, max_error, window)) {
+        removed += StartWithoutDepth(&landmark);
+      } else {
+        const auto [bad, is_outlier] = RemoveBadObservations(p_W, max_error, window, &landmark);
+        is_bad = is_outlier;
+        removed += bad + is_bad;
       }
-      sum += error.value_or(0);
-      ++i;
     }
-    const size_t count = landmark.views.size() - 1;
-    bad = bad || count == 0 || sum / count > max_error;
-    removed += bad;
-    it = bad ? landmarks_.erase(it) : std::next(it);
+    it = is_bad ? landmarks_.erase(it) : std::next(it);
   }
   return removed;
 }
 
-std::vector<RightResidual> PointMap::RightResiduals(const SlidingWindow& window) {
-  std::vector<RightResidual> residuals;
-  for (auto& [id, landmark] : landmarks_) {
+std::vector<PointResidual> PointMap::ResidualsIn(int camera, const SlidingWindow& window) const {
+  std::vector<PointResidual> residuals;
+  for (const auto& [id, landmark] : landmarks_) {
     if (!IsOptimized(landmark)) continue;
     const Eigen::Vector3d p_W = PositionInWorld(landmark, window);
-    for (PointView& view : landmark.views) {
-      if (!view.right) continue;
-      const PosedPointObservation observation = RightObservationOf(view, window);
-      const Eigen::Vector3d p_C1 = observation.T_W_C.Inverse() * p_W;
-      if (p_C1.z() < kMinLandmarkDepth) {
-        view.right.reset();
-      } else {
-        residuals.push_back({&view, p_C1.hnormalized() - observation.xy});
-      }
+    for (const PointLandmark::Observation& observation : landmark.observations) {
+      if (observation.camera != camera) continue;
+      const PosedPointObservation posed = Posed(observation, window);
+      const Eigen::Vector3d p_C = posed.T_W_C.Inverse() * p_W;
+      Eigen::Vector2d error = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+      if (p_C.z() >= kMinLandmarkDepth) error = p_C.hnormalized() - posed.xy;
+      residuals.push_back(
+          {id, observation, landmark.host().camera == camera, error, observation.bearing.velocity});
     }
   }
   return residuals;
@@ -247,10 +256,10 @@ DepthCounts PointMap::RemoveDepthOutliers(const SlidingWindow& window, double ma
   for (auto& [id, landmark] : landmarks_) {
     if (!IsOptimized(landmark)) continue;
     const Eigen::Vector3d p_W = PositionInWorld(landmark, window);
-    for (PointView& view : landmark.views) {
-      if (!view.depth) continue;
-      const bool wrong = ContradictsDepth(p_W, view, max_error, window);
-      if (wrong) view.depth.reset();
+    for (PointLandmark::Observation& observation : landmark.observations) {
+      if (!observation.depth) continue;
+      const bool wrong = ContradictsDepth(p_W, observation, max_error, window);
+      if (wrong) observation.depth.reset();
       ++(wrong ? counts.rejected : counts.used);
     }
   }

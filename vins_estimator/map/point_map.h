@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -14,10 +15,13 @@
 
 namespace plm_vins {
 
-// Residual of an observation in the second camera, normalized.
-struct RightResidual {
-  PointView* view;
-  Eigen::Vector2d error;  // projection minus observation
+// Residual of an observation after optimization.
+struct PointResidual {
+  int64_t id;  // of the landmark
+  ImageKey image;
+  bool is_in_host_camera;
+  Eigen::Vector2d error;  // projection minus observation, normalized; infinite behind the camera
+  Eigen::Vector2d flow;   // velocity in the image [1/s]
 };
 
 // All corner tracks with observations in the window. Every observation belongs to a frame of it.
@@ -46,14 +50,13 @@ class PointMap : public LandmarkMap<PointLandmark> {
   // points.
   std::optional<double> MedianDepthInNewest(const SlidingWindow& window) const;
 
-  // Removes landmarks that are behind a camera or have a mean reprojection error above `max_error`,
-  // and single observations with more than twice that (normalized). Returns the number of removed
-  // landmarks and observations.
+  // Judges landmarks by their observations in the host's camera. Removes those that are behind it
+  // or have a mean reprojection error above `max_error`, and single observations with more than
+  // twice that (normalized). Returns the number of removed landmarks and observations.
   int RemoveOutliers(const SlidingWindow& window, double max_error);
 
-  // Returns the residuals of the optimized points in the second camera; drops its observations of
-  // points that are not in front of it.
-  std::vector<RightResidual> RightResiduals(const SlidingWindow& window);
+  // Returns the residuals of the optimized points in the images of a camera.
+  std::vector<PointResidual> ResidualsIn(int camera, const SlidingWindow& window) const;
 
   // Drops measured depths whose inverse [1/m] is off by more than `max_error`. The points stay.
   DepthCounts RemoveDepthOutliers(const SlidingWindow& window, double max_error);
@@ -61,14 +64,15 @@ class PointMap : public LandmarkMap<PointLandmark> {
 
 // Transforms a landmark's coordinates to the camera of another observation; marks it as not
 // triangulated if it is behind that camera.
-void MoveHost(const SlidingWindow& window, size_t view, PointLandmark* landmark);
+void MoveHost(const SlidingWindow& window, size_t observation, PointLandmark* landmark);
 
 // Returns the position of a triangulated landmark in the world.
 Eigen::Vector3d PositionInWorld(const PointLandmark& landmark, const SlidingWindow& window);
 
 // Returns the reprojection error of a landmark in one of its observations, normalized; nullopt if
 // it is behind that camera.
-std::optional<double> ReprojectionError(const Eigen::Vector3d& p_W, const PointView& view,
+std::optional<double> ReprojectionError(const Eigen::Vector3d& p_W,
+                                        const PointLandmark::Observation& observation,
                                         const SlidingWindow& window);
 
 }  // namespace plm_vins

@@ -6,22 +6,6 @@
 #include "common/camera/ray_transfer.h"
 
 namespace plm_vins {
-namespace {
-
-// Calls `change_point` and `change_line` with each observation of the map's landmarks.
-template <typename ChangePoint, typename ChangeLine>
-void ChangeViews(const ChangePoint& change_point, const ChangeLine& change_line, LocalMap* map) {
-  for (auto& [id, point] : map->points.landmarks()) {
-    for (PointView& view : point.views) change_point(&view);
-  }
-  for (auto& [id, line] : map->lines.landmarks()) {
-    for (LineView& view : line.views) change_line(&view);
-    for (LineView& view : line.anchor_views) change_line(&view);
-  }
-  map->memory.ChangeViews(change_line);
-}
-
-}  // namespace
 
 double Recalibration::LargestMove() const {
   constexpr int kSteps = 4;
@@ -44,62 +28,46 @@ void Recalibration::Move(Eigen::Vector2d* xy, Eigen::Vector2d* velocity) const {
   TransferRay(*from_, *to_, xy, velocity);
 }
 
-void Recalibration::Move(FrameMeasurement* measurement) const {
-  for (PointObservation& point : measurement->points.points) Move(&point.xy, &point.velocity);
+void Recalibration::Move(int camera, FrameMeasurement* measurement) const {
+  for (PointObservation& point : measurement->points.points) {
+    if (point.camera == camera) Move(&point.xy, &point.velocity);
+  }
   if (!measurement->lines) return;
   for (LineObservation& line : measurement->lines->lines) {
+    if (line.camera != camera) continue;
     Move(&line.start);
     Move(&line.end);
   }
 }
 
-void Recalibration::Move(LineView* view) const {
-  Move(&view->segment.start);
-  Move(&view->segment.end);
-}
-
-void Recalibration::Move(LocalMap* map) const {
-  ChangeViews([this](PointView* view) { Move(&view->bearing.xy, &view->bearing.velocity); },
-              [this](LineView* view) { Move(view); }, map);
-}
-
-void Recalibration::MoveRight(std::optional<RightSegment>* segment) const {
-  if (!*segment) return;
-  Move(&(*segment)->start);
-  Move(&(*segment)->end);
-}
-
-void Recalibration::MoveRight(FrameMeasurement* measurement) const {
-  for (PointObservation& point : measurement->points.points) {
-    if (point.right) Move(&*point.right);
+void Recalibration::Move(int camera, LocalMap* map) const {
+  for (auto& [id, point] : map->points.landmarks()) {
+    for (PointLandmark::Observation& observation : point.observations) {
+      if (observation.camera != camera) continue;
+      Move(&observation.bearing.xy, &observation.bearing.velocity);
+    }
   }
-  if (!measurement->lines) return;
-  for (LineObservation& line : measurement->lines->lines) MoveRight(&line.right);
-}
-
-void Recalibration::MoveRight(LocalMap* map) const {
-  ChangeViews(
-      [this](PointView* view) {
-        if (view->right) Move(&*view->right);
-      },
-      [this](LineView* view) { MoveRight(&view->right); }, map);
+  const auto move_line = [this, camera](LineLandmark::Observation* observation) {
+    if (observation->camera != camera) return;
+    Move(&observation->segment.start);
+    Move(&observation->segment.end);
+  };
+  for (auto& [id, line] : map->lines.landmarks()) {
+    for (LineLandmark::Observation& observation : line.observations) move_line(&observation);
+    for (LineLandmark::Observation& observation : line.anchor_observations) move_line(&observation);
+  }
+  map->memory.ChangeObservations(move_line);
 }
 
 void FollowIntrinsics(const SensorConfig& sensor, double max_error, LocalMap* map) {
-  SlidingWindow& window = map->window;
-  const CameraParameters& camera = sensor.cameras[0].parameters;
-  const Recalibration first(camera.With(window.ray_intrinsics), camera.With(window.intrinsics));
-  if (first.LargestMove() >= max_error) {
-    first.Move(map);
-    window.ray_intrinsics = window.intrinsics;
-  }
-  if (sensor.cameras.size() == 1) return;
-  const CameraParameters& right = sensor.cameras[1].parameters;
-  const Recalibration second(right.With(window.right_ray_intrinsics),
-                             right.With(window.right_intrinsics));
-  if (second.LargestMove() >= max_error) {
-    second.MoveRight(map);
-    window.right_ray_intrinsics = window.right_intrinsics;
+  for (size_t i = 0; i < map->window.cameras.size(); ++i) {
+    WindowCamera& camera = map->window.cameras[i];
+    const CameraParameters& configured = sensor.cameras[i].parameters;
+    const Recalibration recalibration(configured.With(camera.ray_intrinsics),
+                                      configured.With(camera.intrinsics));
+    if (recalibration.LargestMove() < max_error) continue;
+    recalibration.Move(static_cast<int>(i), map);
+    camera.ray_intrinsics = camera.intrinsics;
   }
 }
 

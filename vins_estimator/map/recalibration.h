@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <optional>
 
 #include "common/camera/camera_model.h"
 #include "common/config/sensor_config.h"
@@ -29,17 +28,11 @@ class Recalibration {
   // Transforms a ray together with its velocity in the image.
   void Move(Eigen::Vector2d* xy, Eigen::Vector2d* velocity) const;
 
-  // Transforms all rays of a measurement or a map.
-  void Move(FrameMeasurement* measurement) const;
-  void Move(LocalMap* map) const;
-  // Transforms all rays in the second camera.
-  void MoveRight(FrameMeasurement* measurement) const;
-  void MoveRight(LocalMap* map) const;
+  // Transforms all rays of a camera in a measurement or a map.
+  void Move(int camera, FrameMeasurement* measurement) const;
+  void Move(int camera, LocalMap* map) const;
 
  private:
-  void Move(LineView* view) const;
-  void MoveRight(std::optional<RightSegment>* segment) const;
-
   std::shared_ptr<const CameraModel> from_, to_;
 };
 

@@ -24,16 +24,17 @@ Frame& Found(Frame* frame, int64_t t_ns) {
   return *frame;
 }
 
-void Set(const Rigid3d& T, std::array<double, 7>* pose) {
-  Eigen::Map<Eigen::Vector3d>(pose->data()) = T.translation;
-  Eigen::Map<Eigen::Quaterniond>(pose->data() + 3) = T.rotation.normalized();
-}
-
 }  // namespace
 
-void SlidingWindow::SetExtrinsic(const Rigid3d& T_B_C) { Set(T_B_C, &extrinsic); }
+Rigid3d WindowCamera::T_B_C() const {
+  return {Eigen::Quaterniond(Eigen::Map<const Eigen::Quaterniond>(extrinsics.data() + 3)),
+          Eigen::Map<const Eigen::Vector3d>(extrinsics.data())};
+}
 
-void SlidingWindow::SetMounting(const Rigid3d& T_C_C1) { Set(T_C_C1, &mounting); }
+void WindowCamera::SetExtrinsics(const Rigid3d& T_B_C) {
+  Eigen::Map<Eigen::Vector3d>(extrinsics.data()) = T_B_C.translation;
+  Eigen::Map<Eigen::Quaterniond>(extrinsics.data() + 3) = T_B_C.rotation.normalized();
+}
 
 WindowFrame& SlidingWindow::FrameAt(int64_t t_ns) { return Found(FindIn(&frames, t_ns), t_ns); }
 
@@ -48,9 +49,9 @@ FrameState& SlidingWindow::StateAt(int64_t t_ns) {
   return const_cast<FrameState&>(static_cast<const SlidingWindow*>(this)->StateAt(t_ns));
 }
 
-TimedDepth SlidingWindow::DepthIn(int64_t t_ns, double depth) const {
-  const FrameState& state = StateAt(t_ns);
-  return {depth, (T_W_C(state).rotation.conjugate() * state.velocity()).z()};
+TimedDepth SlidingWindow::DepthIn(const ImageKey& image, double depth) const {
+  const FrameState& state = StateAt(image.t_ns);
+  return {depth, (T_W_C(image).rotation.conjugate() * state.velocity()).z()};
 }
 
 void SlidingWindow::SetStillSince(std::optional<int64_t> still_since_ns) {

@@ -13,6 +13,7 @@
 #include "vins_estimator/geometry/depth_stream.h"
 #include "vins_estimator/geometry/timed_bearing.h"
 #include "vins_estimator/imu/preintegration.h"
+#include "vins_estimator/map/image_key.h"
 #include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {
@@ -34,31 +35,31 @@ struct AnchorFrame {
   int64_t last_use_ns = 0;  // time of the newest frame with a line that this one observes
 };
 
+// The calibration of a camera.
+struct WindowCamera {
+  std::array<double, 7> extrinsics = {0, 0, 0, 0,
+                                      0, 0, 1};  // T_B_C, laid out like FrameState::pose
+  Intrinsics intrinsics = Intrinsics::Zero();
+  Intrinsics ray_intrinsics = Intrinsics::Zero();  // with which all rays were computed
+
+  Rigid3d T_B_C() const;
+  void SetExtrinsics(const Rigid3d& T_B_C);
+};
+
 // The variables of the estimator other than landmarks. `frames` are the keyframes, oldest first,
 // then the newest image.
 struct SlidingWindow {
   std::vector<WindowFrame> frames;
   std::vector<AnchorFrame> anchors;
-  std::array<double, 7> extrinsic = {0, 0, 0, 0, 0, 0, 1};  // T_B_C, laid out like FrameState::pose
-  // T_C_C1, the pose of the second camera in the first, with the same layout; unused without one.
-  std::array<double, 7> mounting = {0, 0, 0, 0, 0, 0, 1};
+  std::vector<WindowCamera> cameras{WindowCamera()};           // by number; at least one
   std::array<double, kDepthStreamSize> depth_stream = {0, 0};  // see geometry/depth_stream.h
   double td = 0;                                               // t_imu = t_image + td [s]
-  Intrinsics intrinsics = Intrinsics::Zero();                  // of the camera
-  Intrinsics ray_intrinsics = Intrinsics::Zero();              // with which all rays were computed
-  // The second camera has its own; unused without one.
-  Intrinsics right_intrinsics = Intrinsics::Zero(), right_ray_intrinsics = Intrinsics::Zero();
-  Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  // [m/s^2]
+  Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);    // [m/s^2]
 
   WindowFrame& newest() { return frames.back(); }
   const WindowFrame& newest() const { return frames.back(); }
   WindowFrame& second_newest() { return frames[frames.size() - 2]; }
   const WindowFrame& second_newest() const { return frames[frames.size() - 2]; }
-
-  Rigid3d T_B_C() const { return ToRigid3d(extrinsic); }
-  Rigid3d T_C_C1() const { return ToRigid3d(mounting); }
-  void SetExtrinsic(const Rigid3d& T_B_C);
-  void SetMounting(const Rigid3d& T_C_C1);
 
   // Returns a frame by its time; throws std::logic_error if there is none: observations in a frame
   // must be removed before the frame.
@@ -71,16 +72,13 @@ struct SlidingWindow {
   // Returns the position of a corner at the time of its frame's state.
   Eigen::Vector2d AtState(const TimedBearing& bearing) const { return bearing.At(td); }
 
-  // Returns the camera pose of a frame or an anchor.
-  Rigid3d T_W_C(const FrameState& state) const { return state.T_W_B() * T_B_C(); }
-  Rigid3d T_W_C(const WindowFrame& frame) const { return T_W_C(frame.state); }
-  Rigid3d T_W_C(int64_t t_ns) const { return T_W_C(StateAt(t_ns)); }
+  // Returns the pose of the camera that took an image of a frame or an anchor.
+  Rigid3d T_W_C(const ImageKey& image) const {
+    return StateAt(image.t_ns).T_W_B() * cameras[image.camera].T_B_C();
+  }
 
-  // Returns the pose of the second camera.
-  Rigid3d T_W_C1(int64_t t_ns) const { return T_W_C(t_ns) * T_C_C1(); }
-
-  // Returns a measured depth with the velocity of the camera in that frame.
-  TimedDepth DepthIn(int64_t t_ns, double depth) const;
+  // Returns a depth that was measured in an image, with the velocity of the camera.
+  TimedDepth DepthIn(const ImageKey& image, double depth) const;
 
   // Sets when standstill began, up to the newest frame, which was just added; nullopt if moving.
   // May reclassify the previous frame as stationary.
@@ -99,12 +97,6 @@ struct SlidingWindow {
   // Removes the oldest frame from the window and keeps its pose as an anchor.
   void TurnOldestIntoAnchor();
   void RemoveAnchor(int64_t t_ns);
-
- private:
-  static Rigid3d ToRigid3d(const std::array<double, 7>& pose) {
-    return {Eigen::Quaterniond(Eigen::Map<const Eigen::Quaterniond>(pose.data() + 3)),
-            Eigen::Map<const Eigen::Vector3d>(pose.data())};
-  }
 };
 
 }  // namespace plm_vins

@@ -22,27 +22,25 @@ void WindowEstimate::RemoveAnchor(int64_t t_ns) {
 
 Calibration CalibrationIn(const SlidingWindow& window, const SensorConfig& sensor) {
   Calibration calibration;
-  calibration.camera = sensor.cameras[0].parameters.With(window.intrinsics);
-  calibration.T_B_C = window.T_B_C();
-  calibration.td = window.td;
-  if (sensor.cameras.size() > 1) {
-    calibration.T_C_C1 = window.T_C_C1();
-    calibration.right_camera = sensor.cameras[1].parameters.With(window.right_intrinsics);
+  calibration.cameras.clear();
+  for (size_t i = 0; i < window.cameras.size(); ++i) {
+    calibration.cameras.push_back({sensor.cameras[i].parameters.With(window.cameras[i].intrinsics),
+                                   window.cameras[i].T_B_C()});
   }
+  calibration.td = window.td;
   return calibration;
 }
 
 WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& options) {
   WindowEstimate estimate{LocalMap(options)};
   SlidingWindow& window = estimate.map.window;
-  window.SetExtrinsic(sensor.cameras[0].T_B_C);
-  if (sensor.cameras.size() > 1) {
-    window.SetMounting(sensor.cameras[0].T_B_C.Inverse() * sensor.cameras[1].T_B_C);
-    window.right_intrinsics = window.right_ray_intrinsics =
-        sensor.cameras[1].parameters.intrinsics();
+  window.cameras.resize(sensor.cameras.size());
+  for (size_t i = 0; i < window.cameras.size(); ++i) {
+    WindowCamera& camera = window.cameras[i];
+    camera.SetExtrinsics(sensor.cameras[i].T_B_C);
+    camera.intrinsics = camera.ray_intrinsics = sensor.cameras[i].parameters.intrinsics();
   }
   window.td = sensor.td;
-  window.intrinsics = window.ray_intrinsics = sensor.cameras[0].parameters.intrinsics();
   window.gravity_W = Eigen::Vector3d(0, 0, -sensor.gravity_norm);
   return estimate;
 }

@@ -15,8 +15,8 @@ using Eigen::Vector2d;
 // Returns the greater of the distances between each line's newest segment and the image of the
 // other line.
 double DistanceInImages(const SlidingWindow& window, const LineLandmark& a, const LineLandmark& b) {
-  return std::max(DistanceInImage(window, LineInWorld(a, window), b.views.back()),
-                  DistanceInImage(window, LineInWorld(b, window), a.views.back()));
+  return std::max(DistanceInImage(window, LineInWorld(a, window), OfHostCamera(b).back()),
+                  DistanceInImage(window, LineInWorld(b, window), OfHostCamera(a).back()));
 }
 
 // Returns whether two segments of one image overlap along their direction but are farther apart
@@ -34,32 +34,34 @@ bool AreSideBySide(const LineSegmentView& a, const LineSegmentView& b, double no
 }
 
 bool AreSeenSideBySide(const LineLandmark& a, const LineLandmark& b, double noise) {
-  auto other = b.views.begin();
-  for (const LineView& view : a.views) {
-    while (other != b.views.end() && other->t_ns < view.t_ns) ++other;
-    if (other == b.views.end()) return false;
-    if (other->t_ns == view.t_ns && AreSideBySide(view.segment, other->segment, noise)) return true;
+  auto other = b.observations.begin();
+  for (const LineLandmark::Observation& observation : a.observations) {
+    while (other != b.observations.end() && *other < observation) ++other;
+    if (other == b.observations.end()) return false;
+    if (*other == observation && AreSideBySide(observation.segment, other->segment, noise)) {
+      return true;
+    }
   }
   return false;
 }
 
-// Merges the observations of both lines by time; where one image has both, the longer segment is
-// kept.
-std::vector<LineView> JoinViews(const LineLandmark& a, const LineLandmark& b) {
-  std::vector<LineView> views;
-  std::merge(
-      a.views.begin(), a.views.end(), b.views.begin(), b.views.end(), std::back_inserter(views),
-      [](const LineView& first, const LineView& second) { return first.t_ns < second.t_ns; });
+// Merges the observations of both lines in their order; where one image has both, the longer
+// segment is kept.
+std::vector<LineLandmark::Observation> JoinObservations(const LineLandmark& a,
+                                                        const LineLandmark& b) {
+  std::vector<LineLandmark::Observation> joint;
+  std::merge(a.observations.begin(), a.observations.end(), b.observations.begin(),
+             b.observations.end(), std::back_inserter(joint));
   size_t last = 0;
-  for (size_t i = 1; i < views.size(); ++i) {
-    if (views[i].t_ns != views[last].t_ns) {
-      views[++last] = views[i];
-    } else if (Length(views[i]) > Length(views[last])) {
-      views[last] = views[i];
+  for (size_t i = 1; i < joint.size(); ++i) {
+    if (!(joint[i] == joint[last])) {
+      joint[++last] = joint[i];
+    } else if (joint[i].Length() > joint[last].Length()) {
+      joint[last] = joint[i];
     }
   }
-  views.resize(last + 1);
-  return views;
+  joint.resize(last + 1);
+  return joint;
 }
 
 // Returns the 99.9 % quantile of the chi-square distribution ([Wilson1931]).
@@ -69,28 +71,32 @@ double ChiSquareLimit(int degrees_of_freedom) {
   return degrees_of_freedom * std::pow(1.0 - v + kNormalLimit * std::sqrt(v), 3);
 }
 
-// Fits a line to the observations `views`, starting from `line_W`. Returns nullopt if that passes
-// through the first camera, where it has no coordinates.
-std::optional<LineFit> Fit(const SlidingWindow& window, double noise,
-                           const std::vector<LineView>& views, const PluckerLine& line_W) {
-  const auto observations = ObservationsOf(views, window);
+// Fits a line to the observations of a landmark in its host's camera, starting from `line_W`.
+// Returns nullopt if that passes through the host, where it has no coordinates.
+std::optional<LineFit> Fit(const SlidingWindow& window, double noise, const LineLandmark& landmark,
+                           const PluckerLine& line_W) {
+  const auto observations = PosedOfHostCamera(landmark, window);
   const PluckerLine initial = observations.front().T_W_C.Inverse() * line_W;
   if (!(initial.moment.norm() > 0 && initial.direction.norm() > 0)) return std::nullopt;
   return FitLine(observations, noise, ToOrthonormal(initial));
 }
 
 // Returns the older line with the observations of both, refitted; nullopt if no single line fits
-// them, or if it fits significantly worse than two lines do.
+// them, or if it fits significantly worse than two lines do, or if the cameras differ.
 std::optional<LineLandmark> Join(const SlidingWindow& window, double noise,
                                  const LineLandmark& older, const LineLandmark& newer) {
+  if (older.host().camera != newer.host().camera) return std::nullopt;
   LineLandmark joint = older;
-  joint.views = JoinViews(older, newer);
-  for (const LineView& view : newer.anchor_views) AddAnchorView(view, &joint.anchor_views);
-  const auto joint_fit = Fit(window, noise, joint.views, LineInWorld(older, window));
-  const auto older_fit = Fit(window, noise, older.views, LineInWorld(older, window));
-  const auto newer_fit = Fit(window, noise, newer.views, LineInWorld(newer, window));
+  joint.observations = JoinObservations(older, newer);
+  for (const LineLandmark::Observation& observation : newer.anchor_observations) {
+    AddAnchorObservation(observation, &joint.anchor_observations);
+  }
+  const auto joint_fit = Fit(window, noise, joint, LineInWorld(older, window));
+  const auto older_fit = Fit(window, noise, older, LineInWorld(older, window));
+  const auto newer_fit = Fit(window, noise, newer, LineInWorld(newer, window));
   if (!joint_fit || !older_fit || !newer_fit) return std::nullopt;
-  const int degrees_of_freedom = 2 * static_cast<int>(joint.views.size()) - kLineTangentSize;
+  const int degrees_of_freedom =
+      2 * static_cast<int>(OfHostCamera(joint).size()) - kLineTangentSize;
   const double rise = joint_fit->cost - older_fit->cost - newer_fit->cost;
   if (degrees_of_freedom <= 0 || joint_fit->cost > ChiSquareLimit(degrees_of_freedom) ||
       rise > ChiSquareLimit(kLineTangentSize)) {

@@ -10,14 +10,17 @@
 
 namespace plm_vins {
 
-// Whether the depth of the scene can be known: from the start on, or by motion since then. Without
-// motion, noise places points arbitrarily near.
+// Whether the depth of the scene can be known: from the start on, by measurements in single frames,
+// or by motion since the start. Without these, noise places points arbitrarily near.
 class DepthEvidence {
  public:
   void Begin(const Eigen::Vector3d& p_W, bool is_known) {
     start_W_ = p_W;
     is_known_ = is_known;
   }
+
+  // Adds the number of used measurements of depth in single frames.
+  void AddMeasured(int count) { is_known_ = is_known_ || count >= kLeastMeasured; }
 
   // Adds the newest position with the covariance of its state.
   void Add(const Eigen::Vector3d& p_W, const std::optional<Matrix15d>& covariance) {
@@ -30,6 +33,7 @@ class DepthEvidence {
   bool is_known() const { return is_known_; }
 
  private:
+  static constexpr int kLeastMeasured = 10;
   static constexpr double kLeastMotion = 0.01;  // [m]
   static constexpr double kSignificant = 3;     // standard deviations
 

@@ -16,10 +16,10 @@ bool RefinesCalibration(const SensorConfig& sensor) {
 
 Config WithCalibration(const Calibration& calibration, Config config) {
   SensorConfig& sensor = config.sensor;
-  sensor.cameras[0].parameters = calibration.camera;
-  sensor.cameras[0].T_B_C = calibration.T_B_C;
-  if (calibration.right_camera) sensor.cameras[1].parameters = *calibration.right_camera;
-  if (calibration.T_C_C1) sensor.cameras[1].T_B_C = sensor.cameras[0].T_B_C * *calibration.T_C_C1;
+  for (size_t i = 0; i < sensor.cameras.size(); ++i) {
+    sensor.cameras[i].parameters = calibration.cameras[i].parameters;
+    sensor.cameras[i].T_B_C = calibration.cameras[i].T_B_C;
+  }
   sensor.td = calibration.td;
   // The rotation is known now, so it only needs refinement.
   if (sensor.estimate_extrinsic == ExtrinsicMode::kCalibrateRotation) {

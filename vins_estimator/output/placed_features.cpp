@@ -11,6 +11,7 @@ std::vector<TrackedCorner> PlaceCorners(const PointFrame& frame,
   for (const MapPoint& landmark : landmarks) places.emplace(landmark.id, landmark.p_W);
   std::vector<TrackedCorner> corners;
   for (const PointObservation& observation : frame.points) {
+    if (observation.camera != 0) continue;
     TrackedCorner& corner = corners.emplace_back();
     corner.observation = observation;
     const auto place = places.find(observation.id);
@@ -27,6 +28,7 @@ std::vector<TrackedSegment> PlaceSegments(const LineFrame& frame,
   }
   std::vector<TrackedSegment> segments;
   for (const LineObservation& observation : frame.lines) {
+    if (observation.camera != 0) continue;
     TrackedSegment& segment = segments.emplace_back();
     segment.observation = observation;
     const auto place = places.find(observation.id);

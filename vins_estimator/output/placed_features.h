@@ -9,7 +9,7 @@
 
 namespace plm_vins {
 
-// Returns the features of an image together with the positions of their landmarks. A line that was
+// Returns the features of camera 0 together with the positions of their landmarks. A line that was
 // merged into another landmark has no position.
 std::vector<TrackedCorner> PlaceCorners(const PointFrame& frame,
                                         const std::vector<MapPoint>& landmarks);

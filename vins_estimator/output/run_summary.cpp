@@ -34,21 +34,21 @@ Json DistortionToJson(const CameraParameters& camera) {
   return {d[0], d[1], d[2], d[3]};
 }
 
+Json CameraToJson(const CameraCalibration& camera) {
+  const Eigen::Quaterniond& q = camera.T_B_C.rotation;
+  const Eigen::Vector3d& p = camera.T_B_C.translation;
+  return {{"fx_fy_cx_cy_px", PinholeToJson(camera.parameters)},
+          {"distortion", DistortionToJson(camera.parameters)},
+          {"q_B_C_xyzw", {q.x(), q.y(), q.z(), q.w()}},
+          {"p_B_C_m", {p.x(), p.y(), p.z()}}};
+}
+
+// The first camera's values are at the top, those of others in "camera1", ...
 Json CalibrationToJson(const Calibration& calibration) {
-  const Eigen::Quaterniond& q = calibration.T_B_C.rotation;
-  const Eigen::Vector3d& p = calibration.T_B_C.translation;
-  Json json = {{"fx_fy_cx_cy_px", PinholeToJson(calibration.camera)},
-               {"distortion", DistortionToJson(calibration.camera)},
-               {"q_B_C_xyzw", {q.x(), q.y(), q.z(), q.w()}},
-               {"p_B_C_m", {p.x(), p.y(), p.z()}},
-               {"td_s", calibration.td}};
-  if (calibration.T_C_C1) {
-    const Eigen::Quaterniond& q_C1 = calibration.T_C_C1->rotation;
-    const Eigen::Vector3d& p_C1 = calibration.T_C_C1->translation;
-    json["q_C_C1_xyzw"] = {q_C1.x(), q_C1.y(), q_C1.z(), q_C1.w()};
-    json["p_C_C1_m"] = {p_C1.x(), p_C1.y(), p_C1.z()};
-    json["right_fx_fy_cx_cy_px"] = PinholeToJson(*calibration.right_camera);
-    json["right_distortion"] = DistortionToJson(*calibration.right_camera);
+  Json json = CameraToJson(calibration.cameras.front());
+  json["td_s"] = calibration.td;
+  for (size_t i = 1; i < calibration.cameras.size(); ++i) {
+    json["camera" + std::to_string(i)] = CameraToJson(calibration.cameras[i]);
   }
   return json;
 }

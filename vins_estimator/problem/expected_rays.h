@@ -14,18 +14,14 @@
 namespace plm_vins {
 
 // Returns the predicted ray; the observed one if the landmark is behind the camera.
-Eigen::Vector2d ExpectedRay(const PointLandmark& landmark, const PointView& view,
+Eigen::Vector2d ExpectedRay(const PointLandmark& landmark,
+                            const PointLandmark::Observation& observation,
                             const SlidingWindow& window);
-// Returns the predicted ray in the second camera, which must have observed the landmark.
-Eigen::Vector2d ExpectedRightRay(const PointLandmark& landmark, const PointView& view,
-                                 const SlidingWindow& window);
 
 // Returns the points of the projected line nearest to the observed end points; these themselves if
 // the line has no projection.
-LineSegmentView ExpectedEnds(const LineLandmark& landmark, const LineView& view,
+LineSegmentView ExpectedEnds(const LineLandmark& landmark,
+                             const LineLandmark::Observation& observation,
                              const SlidingWindow& window);
-// Returns them in the second camera, which must have observed the line.
-LineSegmentView ExpectedRightEnds(const LineLandmark& landmark, const LineView& view,
-                                  const SlidingWindow& window);
 
 }  // namespace plm_vins

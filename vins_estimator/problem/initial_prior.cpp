@@ -100,13 +100,8 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
       Sigmas({{3, uncertainty.velocity}, {3, uncertainty.accel_bias}, {3, uncertainty.gyro_bias}}));
   if (uncertainty.leveled_by) AddLevel(*uncertainty.leveled_by, window, &prior);
   if (options.estimate_extrinsic) {
-    prior.Add({BlockKind::kExtrinsic, 0}, window.extrinsic.data(),
+    prior.Add({BlockKind::kExtrinsic, 0}, window.cameras.front().extrinsics.data(),
               Sigmas({{3, uncertainty.extrinsic_position}, {3, uncertainty.extrinsic_rotation}}));
-  }
-  if (options.estimate_mounting) {
-    prior.Add(
-        {BlockKind::kMounting, 0}, window.mounting.data(),
-        Sigmas({{2, uncertainty.mounting}, {1, uncertainty.baseline}, {3, uncertainty.mounting}}));
   }
   if (options.estimate_depth_stream) {
     prior.Add({BlockKind::kDepthStream, 0}, window.depth_stream.data(),
@@ -116,12 +111,10 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
     prior.Add({BlockKind::kTimeOffset, 0}, &window.td, Sigmas({{1, uncertainty.td}}));
   }
   if (options.estimate_intrinsics) {
-    const IntrinsicsDeviation& deviation = uncertainty.intrinsics;
-    prior.Add({BlockKind::kIntrinsics, 0}, window.intrinsics.data(),
-              Sigmas(deviation, window.intrinsics));
-    if (options.right_camera) {
-      prior.Add({BlockKind::kRightIntrinsics, 0}, window.right_intrinsics.data(),
-                Sigmas(deviation, window.right_intrinsics));
+    for (size_t i = 0; i < window.cameras.size(); ++i) {
+      const Intrinsics& intrinsics = window.cameras[i].intrinsics;
+      prior.Add({BlockKind::kIntrinsics, static_cast<int64_t>(i)}, intrinsics.data(),
+                Sigmas(uncertainty.intrinsics, intrinsics));
     }
   }
   return prior.Build();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "common/config/sensor_config.h"
@@ -10,10 +9,6 @@
 #include "vins_estimator/problem/problem_options.h"
 
 namespace plm_vins {
-
-// Relative standard deviation of the lengths that a calibrated stereo camera, or depth sensor,
-// measures: of the baseline, or of depths.
-constexpr double kLengthDeviation = 0.002;
 
 // Standard deviations of the first state of a window.
 struct InitialUncertainty {
@@ -26,11 +21,8 @@ struct InitialUncertainty {
   // If set, roll and pitch come from the mean specific force at standstill, whose standard
   // deviation this is [m/s^2]; `inclination` is then not used.
   std::optional<double> leveled_by = std::nullopt;
-  double extrinsic_position = 0.02;  // [m]
-  double extrinsic_rotation = 0.02;  // [rad]
-  double mounting =
-      0.05 * M_PI / 180;  // rotation of the second camera, direction of the baseline [rad]
-  double baseline = kLengthDeviation;     // relative standard deviation of its length
+  double extrinsic_position = 0.02;       // of the first camera [m]
+  double extrinsic_rotation = 0.02;       // of the first camera [rad]
   double td = 0.01;                       // [s]
   double depth_scale = kLengthDeviation;  // relative
   double depth_delay = 0.01;              // [s]

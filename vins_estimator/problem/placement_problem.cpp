@@ -29,24 +29,24 @@ PlacementProblem::PlacementProblem(const ProblemOptions& options, LocalMap* map,
       known_until_ns_(known_until_ns),
       variables_(&map->window, KnownUntil(known_until_ns), /*first_estimates=*/nullptr, &problem_),
       motion_(&options_, &map->window, &variables_, &problem_),
-      views_(&options_, &map->window, &variables_, &problem_) {
+      observations_(&options_, &map->window, &variables_, &problem_) {
   const std::vector<WindowFrame>& frames = map->window.frames;
   for (size_t i = 1; i < frames.size(); ++i) {
     if (frames[i].state.t_ns > known_until_ns) motion_.Add(i);
   }
-  for (auto& [id, landmark] : map->points.landmarks()) AddNewViews(&landmark);
-  for (auto& [id, landmark] : map->lines.landmarks()) AddNewViews(&landmark);
+  for (auto& [id, landmark] : map->points.landmarks()) AddNewObservations(&landmark);
+  for (auto& [id, landmark] : map->lines.landmarks()) AddNewObservations(&landmark);
 }
 
 template <typename Landmark>
-void PlacementProblem::AddNewViews(Landmark* landmark) {
+void PlacementProblem::AddNewObservations(Landmark* landmark) {
   const bool is_known = WasOptimizedAt(known_until_ns_, *landmark);
-  if (!is_known || landmark->views.back().t_ns <= known_until_ns_) return;
-  const auto known = views_.AddConstant(landmark);
-  for (const auto& view : landmark->views) {
-    if (view.t_ns <= known_until_ns_) continue;
-    views_.AddView(known, view);
-    views_.AddDepth(known, view);
+  if (!is_known || landmark->observations.back().t_ns <= known_until_ns_) return;
+  const auto known = observations_.AddConstant(landmark);
+  for (const auto& observation : landmark->observations) {
+    if (observation.t_ns <= known_until_ns_) continue;
+    observations_.AddObservation(known, observation);
+    observations_.AddDepth(known, observation);
   }
 }
 

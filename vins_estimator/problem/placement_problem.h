@@ -6,8 +6,8 @@
 #include "vins_estimator/least_squares/window_problem.h"
 #include "vins_estimator/map/local_map.h"
 #include "vins_estimator/problem/motion_terms.h"
+#include "vins_estimator/problem/observation_terms.h"
 #include "vins_estimator/problem/problem_options.h"
-#include "vins_estimator/problem/view_terms.h"
 #include "vins_estimator/problem/window_variables.h"
 
 namespace plm_vins {
@@ -24,14 +24,14 @@ class PlacementProblem {
 
  private:
   template <typename Landmark>
-  void AddNewViews(Landmark* landmark);
+  void AddNewObservations(Landmark* landmark);
 
   const ProblemOptions options_;
   const int64_t known_until_ns_;
   WindowProblem problem_;
   WindowVariables variables_;
   MotionTerms motion_;
-  ViewTerms views_;
+  ObservationTerms observations_;
 };
 
 }  // namespace plm_vins

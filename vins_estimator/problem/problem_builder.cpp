@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/problem/problem_builder.h"
 
+#include "vins_estimator/factors/extrinsics_prior.h"
 #include "vins_estimator/factors/manhattan_factor.h"
 
 namespace plm_vins {
@@ -10,11 +11,9 @@ namespace {
 // not part of the problem.
 WindowVariables::IsConstant KnownCalibration(const ProblemOptions& options) {
   const bool knows_extrinsic = !options.estimate_extrinsic, knows_td = !options.estimate_td;
-  const bool knows_mounting = !options.estimate_mounting;
   const bool knows_stream = !options.estimate_depth_stream;
   return [=](const BlockId& id) {
-    return (id.kind == BlockKind::kExtrinsic && knows_extrinsic) ||
-           (id.kind == BlockKind::kMounting && knows_mounting) ||
+    return (id.kind == BlockKind::kExtrinsic && id.key == 0 && knows_extrinsic) ||
            (id.kind == BlockKind::kDepthStream && knows_stream) ||
            (id.kind == BlockKind::kTimeOffset && knows_td);
   };
@@ -30,11 +29,12 @@ ProblemBuilder::ProblemBuilder(const ProblemOptions& options, SlidingWindow* win
       variables_(window, KnownCalibration(options),
                  options.jacobians_at == JacobiansAt::kFirstEstimates ? prior : nullptr, &problem_),
       motion_(&options_, window, &variables_, &problem_),
-      views_(&options_, window, &variables_, &problem_),
+      observations_(&options_, window, &variables_, &problem_),
       manhattan_loss_(options.manhattan_loss_scale) {}
 
 void ProblemBuilder::AddAll(PointMap* points, LineMap* lines) {
   AddPrior();
+  AddExtrinsicsPriors();
   for (size_t i = 1; i < window_->frames.size(); ++i) AddMotion(i);
   for (auto& [id, landmark] : points->landmarks()) {
     if (IsOptimized(landmark)) AddPoint(&landmark);
@@ -49,28 +49,41 @@ void ProblemBuilder::AddPrior() {
   problem_.SetPrior(prior_);
 }
 
-template <typename ProblemLandmark>
-void ProblemBuilder::AddViews(const ProblemLandmark& landmark, int64_t depth_until_ns) {
-  const auto& views = landmark.landmark->views;
-  views_.AddHostView(landmark);
-  for (size_t i = 1; i < views.size(); ++i) views_.AddView(landmark, views[i]);
-  for (const auto& view : views) {
-    if (view.t_ns < depth_until_ns) views_.AddDepth(landmark, view);
+void ProblemBuilder::AddExtrinsicsPriors() {
+  for (const ExtrinsicsLink& link : options_.extrinsics_links) {
+    problem_.AddTerm(ExtrinsicsPrior(link.T_Ci_Cj, link.deviation), nullptr,
+                     {variables_.Extrinsics(link.i), variables_.Extrinsics(link.j)});
   }
 }
 
-void ProblemBuilder::AddPoint(PointLandmark* landmark, int64_t depth_until_ns) {
-  AddViews(views_.AddEliminated(landmark), depth_until_ns);
+template <typename Landmark>
+void ProblemBuilder::AddObservations(const ProblemLandmark<Landmark>& landmark, int64_t until_ns) {
+  const auto& observations = landmark.landmark->observations;
+  const size_t first_in_newest = FirstInNewest(*landmark.landmark);
+  for (size_t i = 0; i < observations.size(); ++i) {
+    if (observations[i].t_ns < until_ns || i == first_in_newest) {
+      observations_.AddObservation(landmark, observations[i]);
+    }
+  }
+  for (const auto& observation : observations) {
+    if (observation.t_ns < until_ns) observations_.AddDepth(landmark, observation);
+  }
 }
 
-void ProblemBuilder::AddLine(LineLandmark* landmark, int64_t depth_until_ns) {
-  const ProblemLine line = views_.AddEliminated(landmark);
-  AddViews(line, depth_until_ns);
-  for (const LineView& view : landmark->anchor_views) views_.AddAnchorView(line, view);
+void ProblemBuilder::AddPoint(PointLandmark* landmark, int64_t until_ns) {
+  AddObservations(observations_.AddEliminated(landmark), until_ns);
+}
+
+void ProblemBuilder::AddLine(LineLandmark* landmark, int64_t until_ns) {
+  const ProblemLine line = observations_.AddEliminated(landmark);
+  AddObservations(line, until_ns);
+  for (const LineLandmark::Observation& observation : landmark->anchor_observations) {
+    observations_.AddAnchorObservation(line, observation);
+  }
   if (!options_.R_W_M || landmark->axis == LineAxis::kFree) return;
   const Eigen::Vector3d axis_W = *options_.R_W_M * UnitVector(landmark->axis);
   problem_.AddLandmarkTerm(*line.eliminated, ManhattanFactor(axis_W, options_.manhattan_weight),
-                           &manhattan_loss_, {line.host_pose, line.extrinsic, line.line});
+                           &manhattan_loss_, {line.host_pose, line.host_extrinsics, line.variable});
 }
 
 }  // namespace plm_vins

@@ -12,8 +12,8 @@
 #include "vins_estimator/map/point_map.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/motion_terms.h"
+#include "vins_estimator/problem/observation_terms.h"
 #include "vins_estimator/problem/problem_options.h"
-#include "vins_estimator/problem/view_terms.h"
 #include "vins_estimator/problem/window_variables.h"
 
 namespace plm_vins {
@@ -33,17 +33,19 @@ class ProblemBuilder {
   // Adds the IMU factor between frames `index` - 1 and `index`, and standstill factors if
   // stationary.
   void AddMotion(size_t index) { motion_.Add(index); }
-  // Adds a triangulated landmark with all its observations. Those that measure its depth in one
-  // image (second camera, depth image) are added only before `depth_until_ns`.
-  void AddPoint(PointLandmark* landmark, int64_t depth_until_ns = kEndOfTime_ns);
+  // Adds the priors between the extrinsics of cameras.
+  void AddExtrinsicsPriors();
+  // Adds a triangulated landmark with its observations before `until_ns`, and with the first one of
+  // the newest frame in any case.
+  void AddPoint(PointLandmark* landmark, int64_t until_ns = kEndOfTime_ns);
   // Adds a line in the same way, with its observations in anchors and its Manhattan axis, if any.
-  void AddLine(LineLandmark* landmark, int64_t depth_until_ns = kEndOfTime_ns);
+  void AddLine(LineLandmark* landmark, int64_t until_ns = kEndOfTime_ns);
 
   const WindowProblem& problem() const { return problem_; }
 
  private:
-  template <typename ProblemLandmark>
-  void AddViews(const ProblemLandmark& landmark, int64_t depth_until_ns);
+  template <typename Landmark>
+  void AddObservations(const ProblemLandmark<Landmark>& landmark, int64_t until_ns);
 
   const ProblemOptions options_;
   const SlidingWindow* window_;
@@ -51,7 +53,7 @@ class ProblemBuilder {
   WindowProblem problem_;
   WindowVariables variables_;
   MotionTerms motion_;
-  ViewTerms views_;
+  ObservationTerms observations_;
   ceres::TukeyLoss manhattan_loss_;
 };
 

@@ -3,9 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <vector>
 
 #include "common/camera/camera_model.h"
 #include "common/config/config.h"
+#include "vins_estimator/factors/extrinsics_prior.h"
 
 namespace plm_vins {
 
@@ -15,25 +17,42 @@ namespace plm_vins {
 // marginalize.
 enum class JacobiansAt { kValues, kFirstEstimates };
 
+// Relative standard deviation of the lengths that a calibrated stereo camera, or depth sensor,
+// measures: of the baseline, or of depths.
+constexpr double kLengthDeviation = 0.002;
+
+// The configured pose of a camera j in a camera i, with a lower number.
+struct ExtrinsicsLink {
+  int i, j;
+  Rigid3d T_Ci_Cj;
+  bool is_pair;  // a stereo pair: both observe the same points
+  RelativePoseDeviation deviation;
+};
+
+// A camera as configured, and the weights of its observations.
+struct ProblemCamera {
+  CameraParameters parameters;
+  double noise_ratio = 1;        // noise, normalized, over that of the first camera
+  double point_weight = 0;       // inverse standard deviation of a corner, normalized
+  double line_noise_factor = 1;  // on the deviations of end points
+};
+
 // Weights of the terms in the window problem, and the calibration that it estimates.
 struct ProblemOptions {
   // `focal_length` [px] converts pixels to normalized coordinates.
   ProblemOptions(const Config& config, double focal_length);
 
-  // Sets the weights of points and lines from their noise, normalized.
+  // Sets the weights of points and lines from their noise in the first camera, normalized.
   void SetNoise(double point_noise, double line_noise);
 
   // Limits the certainty of standstill: image flow up to `flow` [1/s] is indistinguishable from it.
   // Has no effect if the scene's median depth [m] is unknown.
   void LetPass(double flow, std::optional<double> depth);
 
-  double point_weight;            // inverse standard deviation of a corner, normalized
-  double point_loss_scale = 1.0;  // Cauchy loss, in standard deviations
-  double line_weight;             // inverse standard deviation of an end point across its line
-  double line_loss_scale = 1.0;   // Cauchy loss, in standard deviations
-  double right_weight;            // inverse standard deviation of a corner in the second camera
-  double right_loss_scale = 1.0;  // Cauchy loss, in standard deviations
-  double right_line_noise_factor = 1;  // on the stated deviations of lines in the second camera
+  std::vector<ProblemCamera> cameras;  // by number
+  double point_loss_scale = 1.0;       // Cauchy loss, in standard deviations
+  double line_weight;                  // inverse standard deviation of an end point across its line
+  double line_loss_scale = 1.0;        // Cauchy loss, in standard deviations
   double depth_weight = 0;             // inverse standard deviation of a measured inverse depth [m]
   double depth_loss_scale = 1.0;       // Cauchy loss, in standard deviations
   double anchor_weight;                // inverse standard deviation of an end point in an anchor
@@ -46,13 +65,11 @@ struct ProblemOptions {
   // deviations.
   double passing_velocity = 0;   // [m/s]
   double passing_turn_rate = 0;  // [rad/s]
-  bool estimate_extrinsic;
-  bool estimate_mounting;  // mounting of the second camera
+  bool estimate_extrinsic;       // of the first camera; those of others are always estimated
+  std::vector<ExtrinsicsLink> extrinsics_links;  // one for each camera but the first
   bool estimate_depth_stream;
   bool estimate_td;
   bool estimate_intrinsics;
-  CameraParameters camera;                       // configured camera
-  std::optional<CameraParameters> right_camera;  // configured second camera, if there is one
   JacobiansAt jacobians_at = JacobiansAt::kFirstEstimates;
   // Manhattan frame to whose axes lines are constrained; nullopt if there is none.
   std::optional<Eigen::Quaterniond> R_W_M;

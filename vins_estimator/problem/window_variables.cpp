@@ -24,17 +24,13 @@ int WindowVariables::Add(const BlockId& id) {
 double* WindowVariables::Values(const BlockId& id) {
   switch (id.kind) {
     case BlockKind::kExtrinsic:
-      return window_->extrinsic.data();
-    case BlockKind::kMounting:
-      return window_->mounting.data();
+      return window_->cameras[id.key].extrinsics.data();
     case BlockKind::kDepthStream:
       return window_->depth_stream.data();
     case BlockKind::kTimeOffset:
       return &window_->td;
     case BlockKind::kIntrinsics:
-      return window_->intrinsics.data();
-    case BlockKind::kRightIntrinsics:
-      return window_->right_intrinsics.data();
+      return window_->cameras[id.key].intrinsics.data();
     case BlockKind::kPose:
       return window_->StateAt(id.key).pose.data();
     case BlockKind::kMotion:

@@ -25,12 +25,10 @@ class WindowVariables {
 
   int Pose(int64_t t_ns) { return Add({BlockKind::kPose, t_ns}); }  // frame or anchor
   int Motion(int64_t t_ns) { return Add({BlockKind::kMotion, t_ns}); }
-  int Extrinsic() { return Add({BlockKind::kExtrinsic, 0}); }
-  int Mounting() { return Add({BlockKind::kMounting, 0}); }
+  int Extrinsics(int camera) { return Add({BlockKind::kExtrinsic, camera}); }
   int DepthStream() { return Add({BlockKind::kDepthStream, 0}); }
   int TimeOffset() { return Add({BlockKind::kTimeOffset, 0}); }
-  int Intrinsics() { return Add({BlockKind::kIntrinsics, 0}); }
-  int RightIntrinsics() { return Add({BlockKind::kRightIntrinsics, 0}); }
+  int Intrinsics(int camera) { return Add({BlockKind::kIntrinsics, camera}); }
   // Adds any of these variables.
   int Add(const BlockId& id);
 

@@ -12,7 +12,7 @@ bool LinesDepart(const SlidingWindow& window, const LineMap& lines) {
   const int64_t oldest_ns = window.frames.front().state.t_ns;
   const int64_t newest_ns = window.newest().state.t_ns;
   return std::any_of(lines.landmarks().begin(), lines.landmarks().end(), [&](const auto& item) {
-    return LeavesWith(oldest_ns, item.second) && item.second.views.back().t_ns != newest_ns;
+    return LeavesWith(oldest_ns, item.second) && item.second.observations.back().t_ns != newest_ns;
   });
 }
 
@@ -46,8 +46,8 @@ std::optional<int64_t> AnchorToReplace(const AnchorPolicyOptions& options,
 
 void NoteUse(const LineMap& lines, SlidingWindow* window) {
   for (const auto& [id, landmark] : lines.landmarks()) {
-    for (const LineView& view : landmark.anchor_views) {
-      window->AnchorAt(view.t_ns).last_use_ns = window->newest().state.t_ns;
+    for (const LineLandmark::Observation& observation : landmark.anchor_observations) {
+      window->AnchorAt(observation.t_ns).last_use_ns = window->newest().state.t_ns;
     }
   }
 }

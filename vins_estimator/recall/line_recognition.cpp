@@ -24,10 +24,10 @@ bool MayTouch(const SeenLine& a, const SeenLine& b, double distance) {
 
 // Largest distance of a landmark's observations from the projection of another line.
 double DistanceInImages(const SlidingWindow& window, const PluckerLine& line_W,
-                        const std::vector<LineView>& views) {
+                        const std::vector<LineLandmark::Observation>& observations) {
   double farthest = 0;
-  for (const LineView& view : views) {
-    farthest = std::max(farthest, DistanceInImage(window, line_W, view));
+  for (const LineLandmark::Observation& observation : observations) {
+    farthest = std::max(farthest, DistanceInImage(window, line_W, observation));
   }
   return farthest;
 }
@@ -48,7 +48,8 @@ std::optional<int64_t> Recognize(const SameLineLimits& limits, const Eigen::Quat
     const LinePairGeometry pair = Compare(Rotated(R_F_W, line.seen_W), seen_F);
     if (pair.distance >= least || FindDifference(limits, pair) != LineDifference::kNone) continue;
     const PluckerLine line_W = LineThrough(line.seen_W.start_F, line.seen_W.end_F);
-    if (DistanceInImages(map.window, line_W, landmark.views) > limits.image_distance) continue;
+    if (DistanceInImages(map.window, line_W, OfHostCamera(landmark)) > limits.image_distance)
+      continue;
     nearest = id;
     least = pair.distance;
   }
@@ -61,7 +62,8 @@ std::vector<int64_t> CollectCandidates(const LocalMap& map) {
   std::vector<int64_t> candidates;
   for (const auto& [id, landmark] : map.lines.landmarks()) {
     const bool is_known = map.memory.Find(id) != nullptr;
-    if (landmark.triangulated && HasEnoughViews(landmark) && !is_known) candidates.push_back(id);
+    if (landmark.triangulated && HasEnoughObservations(landmark) && !is_known)
+      candidates.push_back(id);
   }
   return candidates;
 }

@@ -49,7 +49,7 @@ void EstimatorDiagnostics::UpdateCounts(const EstimationStage& stage, const Drop
   input_finding_ = stage.InputFinding();
   imu_contradiction_ = stage.ImuContradiction();
   lens_warning_ = stage.LensWarning();
-  companion_fault_ = stage.CompanionFault();
+  sensor_faults_ = stage.SensorFaults();
   queued_frames_ = stage.queued_frames();
   lines_are_missing_ = stage.lines_are_missing();
   frames_without_lines_ = stage.statistics().frames_without_lines;
@@ -76,7 +76,7 @@ void EstimatorDiagnostics::Report(size_t queued,
   status->add("estimator_ms", estimator_ms_);
   status->add("points_observed", counts_.points_observed);
   status->add("points_in_window", counts_.points_in_window);
-  status->add("right_used", counts_.right.used);
+  status->add("matched_used", counts_.matched.used);
   status->add("depths_used", counts_.depth.used);
   status->add("lines_observed", counts_.lines_observed);
   status->add("lines_in_window", counts_.lines_in_window);
@@ -98,11 +98,11 @@ void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapp
   if (!input_finding_.empty()) state += "; " + input_finding_;
   if (!imu_contradiction_.empty()) state += "; " + imu_contradiction_;
   if (!lens_warning_.empty()) state += "; " + lens_warning_;
-  if (!companion_fault_.empty()) state += "; " + companion_fault_;
+  if (!sensor_faults_.empty()) state += "; " + sensor_faults_;
   if (contradicted_) state += "; the camera contradicts the state";
   const bool fine = tracking && !lines_are_missing_ && !late && !on_imu_alone_ && !contradicted_ &&
                     input_finding_.empty() && imu_contradiction_.empty() && lens_warning_.empty() &&
-                    companion_fault_.empty();
+                    sensor_faults_.empty();
   status->summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, state);
 }
 

@@ -70,7 +70,7 @@ class EstimatorDiagnostics {
   int64_t imu_doubts_ = 0;
   std::string input_finding_, imu_contradiction_;
   std::string lens_warning_;
-  std::string companion_fault_;
+  std::string sensor_faults_;
   double pose_age_ = 0;       // [s]
   std::string last_restart_;  // reason for the last restart
   EstimatorCounts counts_;

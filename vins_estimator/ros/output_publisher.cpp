@@ -82,14 +82,15 @@ void OutputPublisher::Publish(const EstimatedFrame& frame) {
 
   const int64_t t_ns = output.t_ns;
   const std::string& world = frames_.world_frame;
-  const Rigid3d T_W_C = output.state.T_W_B() * output.calibration.T_B_C;
+  const Rigid3d T_W_C = output.state.T_W_B() * output.calibration.cameras[0].T_B_C;
   odometry_.publish(ToOdometry(output.state, CovarianceOf(frame), frame.angular_velocity, frames_));
   PublishPath(output.state);
   PublishTransforms(output);
   PublishIfWanted(camera_pose_,
                   [&] { return ToOdometry(t_ns, T_W_C, world, frames_.camera_frame); });
   PublishIfWanted(extrinsic_, [&] {
-    return ToOdometry(t_ns, output.calibration.T_B_C, frames_.body_frame, frames_.camera_frame);
+    return ToOdometry(t_ns, output.calibration.cameras[0].T_B_C, frames_.body_frame,
+                      frames_.camera_frame);
   });
   PublishIfWanted(key_poses_, [&] { return ToKeyPoses(output.window, t_ns, world); });
   PublishIfWanted(point_cloud_, [&] { return ToPointCloud(output.points, t_ns, world); });
@@ -117,7 +118,8 @@ void OutputPublisher::PublishKeyframe(const EstimatedFrame& frame) {
   const EstimatorOutput& output = frame.output;
   const std::string& world = frames_.world_frame;
   PublishIfWanted(camera_info_, [&] {
-    return ToCameraInfo(output.calibration.camera, output.t_ns, frames_.camera_frame);
+    return ToCameraInfo(output.calibration.cameras[0].parameters, output.t_ns,
+                        frames_.camera_frame);
   });
   PublishIfWanted(keyframe_line_, [&] {
     return ToKeyframeLines(PlaceSegments(frame.lines, output.lines), output.R_W_M, output.t_ns,
@@ -187,7 +189,7 @@ std::vector<geometry_msgs::TransformStamped> OutputPublisher::BodyTransforms(
   const Rigid3d T_W_B = output.state.T_W_B();
   if (!base_) {
     return {ToTransform(in_world, frames_.body_frame, T_W_B),
-            ToTransform(in_body, frames_.camera_frame, output.calibration.T_B_C)};
+            ToTransform(in_body, frames_.camera_frame, output.calibration.cameras[0].T_B_C)};
   }
   const auto T_body_base = base_->Locate();
   if (!T_body_base) return {};

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "common/camera/camera_model.h"
 #include "common/geometry/rigid3.h"
 
 namespace plm_vins {
 
-// Calibration that the estimator may refine: camera intrinsics, extrinsics and time offset.
-struct Calibration {
-  CameraParameters camera;
+// Intrinsics and extrinsics of a camera.
+struct CameraCalibration {
+  CameraParameters parameters;
   Rigid3d T_B_C;
-  // Pose of the second camera in the first, and its intrinsics; set if there is one.
-  std::optional<Rigid3d> T_C_C1;
-  std::optional<CameraParameters> right_camera;
+};
+
+// Calibration that the estimator may refine: cameras by number, at least one, and time offset.
+struct Calibration {
+  std::vector<CameraCalibration> cameras{CameraCalibration()};
   double td = 0;  // t_imu = t_image + td [s]
 };
 

@@ -25,7 +25,7 @@ struct LineMergingCounts {
   int inconsistent = 0;       // the observations do not fit one line
 };
 
-// Observations in the window that measure the depth of points in single images.
+// Observations in the window that measure the depth of points in single frames.
 struct DepthCounts {
   int used = 0;
   int rejected = 0;  // removed as outliers
@@ -41,7 +41,7 @@ struct EstimatorCounts {
   int lines_rejected = 0;    // landmarks or observations removed as outliers
   int known_seen = 0;        // optimized landmarks, points and lines, in this image
   int known_rejected = 0;    // outliers among them
-  DepthCounts right;         // in the second camera
+  DepthCounts matched;       // by other cameras than the host's
   DepthCounts depth;         // measured
   LineTriangulationCounts line_triangulation;
   LineMergingCounts line_merging;

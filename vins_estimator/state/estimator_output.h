@@ -37,11 +37,12 @@ struct LengthEvidence {
   double deviation = 0;
 };
 
-// Faults of the second camera that its residuals show.
-struct SecondCameraFaults {
+// Faults of a camera other than the first that its residuals show.
+struct CameraFaults {
+  int camera = 0;
   std::optional<double> misfit_px;  // median residual, if it is too large for the camera to be used
   std::optional<double> delay;      // exposure later than that of the first camera [s]
-  std::optional<LengthEvidence> baseline;  // if it is significant
+  std::optional<LengthEvidence> baseline;  // to an overlapping camera, if it is significant
 };
 
 // Faults of measured depths that motion and IMU show.
@@ -83,7 +84,7 @@ struct EstimatorOutput {
   double imu_noise_scale = 1;               // factor on its variance (ImuMonitor)
   bool imu_doubted = false;                 // the newest IMU interval was re-weighted
   std::optional<double> delay;              // rough error of td, if noticeable [s] (DelayMonitor)
-  SecondCameraFaults second_camera;
+  std::vector<CameraFaults> cameras;        // all but the first
   DepthFaults depth;
   bool contradicted = false;              // many known landmarks are outliers
   bool on_imu_alone = false;              // too few features to constrain the pose

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "vins_estimator/problem/initial_prior.h"
+#include "vins_estimator/factors/manifolds.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr int kBaselineLength = 2;               // index in the tangent of a mounting
 constexpr int kDepthScale = 0, kDepthDelay = 1;  // indices in a depth stream
 constexpr double kMaxDeviation = 0.05;           // relative; evidence is ignored beyond it
 constexpr double kMinSignificance = 3.0;         // in standard deviations
@@ -35,12 +35,23 @@ bool IsSignificant(const LengthEvidence& evidence) {
   return std::abs(evidence.error) > kMinSignificance * evidence.deviation;
 }
 
-std::optional<LengthEvidence> BaselineError(const SlidingWindow& window, double stated_length,
+std::optional<LengthEvidence> BaselineError(const ExtrinsicsLink& pair, const SlidingWindow& window,
                                             NormalEquations* equations) {
-  const Eigen::MatrixXd covariance = equations->Covariance({{BlockKind::kMounting, 0}});
+  const Eigen::Vector3d baseline_B =
+      window.cameras[pair.j].T_B_C().translation - window.cameras[pair.i].T_B_C().translation;
+  // The length depends on both positions, unless the extrinsics of the first camera are known.
+  std::vector<BlockId> ids = {{BlockKind::kExtrinsic, pair.j}};
+  if (equations->IsDense({BlockKind::kExtrinsic, pair.i})) {
+    ids.push_back({BlockKind::kExtrinsic, pair.i});
+  }
+  const Eigen::MatrixXd covariance = equations->Covariance(ids);
   if (covariance.size() == 0) return std::nullopt;
-  const double estimate = std::log(window.T_C_C1().translation.norm() / stated_length);
-  return IfSignificant(WithoutPrior(estimate, covariance(kBaselineLength, kBaselineLength)));
+  const double length = baseline_B.norm();
+  Eigen::VectorXd d_log_length = Eigen::VectorXd::Zero(covariance.rows());
+  d_log_length.head<3>() = baseline_B / (length * length);
+  if (ids.size() > 1) d_log_length.segment<3>(kPoseTangentSize) = -d_log_length.head<3>();
+  return IfSignificant(WithoutPrior(std::log(length / pair.T_Ci_Cj.translation.norm()),
+                                    d_log_length.dot(covariance * d_log_length)));
 }
 
 DepthFaults FaultsOfDepths(const SlidingWindow& window, NormalEquations* equations) {

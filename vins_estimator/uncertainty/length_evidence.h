@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares a length that the calibration states with the one that motion and IMU alone suggest: the
-// baseline of a second camera, or measured depths.
+// baseline of two cameras, or measured depths.
 #pragma once
 
 #include <optional>
 
 #include "vins_estimator/least_squares/normal_equations.h"
 #include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/problem/problem_options.h"
 #include "vins_estimator/state/estimator_output.h"
 
 namespace plm_vins {
@@ -20,8 +21,9 @@ std::optional<LengthEvidence> WithoutPrior(double estimate, double variance);
 bool IsSignificant(const LengthEvidence& evidence);
 
 // Both return what is significant, given the window's equations at their last linearization:
-// the error of the second camera's baseline, and what is wrong with the measured depths.
-std::optional<LengthEvidence> BaselineError(const SlidingWindow& window, double stated_length,
+// the error of the configured baseline of a stereo pair, and what is wrong with the
+// measured depths.
+std::optional<LengthEvidence> BaselineError(const ExtrinsicsLink& pair, const SlidingWindow& window,
                                             NormalEquations* equations);
 DepthFaults FaultsOfDepths(const SlidingWindow& window, NormalEquations* equations);
 

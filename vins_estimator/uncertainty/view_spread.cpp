@@ -27,14 +27,15 @@ void ShortenOutliers(std::vector<Eigen::Vector2d>* residuals) {
   }
 }
 
-// Returns the residuals by time.
+// Returns the residuals in the host's camera by time.
 std::vector<Eigen::Vector2d> ResidualsOf(const PointLandmark& point, const SlidingWindow& window) {
   const Eigen::Vector3d p_W = PositionInWorld(point, window);
   std::vector<Eigen::Vector2d> residuals;
-  residuals.reserve(point.views.size());
-  for (const PointView& view : point.views) {
-    const Eigen::Vector3d p_C = window.T_W_C(view.t_ns).Inverse() * p_W;
-    residuals.push_back(p_C.hnormalized() - window.AtState(view.bearing));
+  residuals.reserve(point.observations.size());
+  for (const PointLandmark::Observation& observation : point.observations) {
+    if (observation.camera != point.host().camera) continue;
+    const Eigen::Vector3d p_C = window.T_W_C(observation).Inverse() * p_W;
+    residuals.push_back(p_C.hnormalized() - window.AtState(observation.bearing));
   }
   return residuals;
 }
@@ -42,9 +43,12 @@ std::vector<Eigen::Vector2d> ResidualsOf(const PointLandmark& point, const Slidi
 std::vector<Eigen::Vector2d> ResidualsOf(const LineLandmark& line, const SlidingWindow& window) {
   const PluckerLine line_W = LineInWorld(line, window);
   std::vector<Eigen::Vector2d> residuals;
-  residuals.reserve(line.views.size());
-  for (const LineView& view : line.views) {
-    if (const auto distances = DistancesOf(view, line_W, window)) residuals.push_back(*distances);
+  residuals.reserve(line.observations.size());
+  for (const LineLandmark::Observation& observation : line.observations) {
+    if (observation.camera != line.host().camera) continue;
+    if (const auto distances = DistancesOf(observation, line_W, window)) {
+      residuals.push_back(*distances);
+    }
   }
   return residuals;
 }
@@ -52,7 +56,7 @@ std::vector<Eigen::Vector2d> ResidualsOf(const LineLandmark& line, const Sliding
 template <typename Landmark>
 std::optional<ViewSpread> SpreadOfViews(const Landmark& landmark, const SlidingWindow& window,
                                         int parameters) {
-  if (!landmark.triangulated || landmark.views.size() < kMinViews) return std::nullopt;
+  if (!landmark.triangulated || landmark.observations.size() < kMinViews) return std::nullopt;
   std::vector<Eigen::Vector2d> residuals = ResidualsOf(landmark, window);
   if (residuals.size() < kMinViews) return std::nullopt;
   return SpreadOf(std::move(residuals), parameters);

@@ -38,7 +38,7 @@ class LoopResultsTest : public ::testing::Test {
   PipelineFrame FrameAt(double x) {
     t_ns_ += ToNanoseconds(0.5);
     PipelineFrame frame;
-    frame.output.calibration.camera = config_.sensor.cameras[0].parameters;
+    frame.output.calibration.cameras[0].parameters = config_.sensor.cameras[0].parameters;
     frame.output.t_ns = t_ns_;
     frame.output.has_pose = true;
     frame.output.uncertainty.emplace().pose.setIdentity();
@@ -114,7 +114,7 @@ TEST_F(LoopResultsTest, HasAModelWhosePointsProjectToTheirCornersWithItsCamera) 
   const auto configured_camera = CameraModel::Create(config_.sensor.cameras[0].parameters);
   const auto refined_camera = CameraModel::Create(refined);
   PipelineFrame frame = FrameAt(0);
-  frame.output.calibration.camera = refined;
+  frame.output.calibration.cameras[0].parameters = refined;
   for (int i = 0; i < 6; ++i) {
     const Eigen::Vector2d uv_px(50 + 40 * i, 40 + 30 * i);
     frame.points.points.push_back({i, *configured_camera->Unproject(uv_px), uv_px, {0, 0}});

@@ -35,7 +35,7 @@ PipelineFrame MakeFrame(int64_t t_ns, bool has_pose) {
   frame.output.counts.lines_recognized = 16;
   frame.output.counts.lines_in_window = 40;
   frame.output.counts.lines_rejected = 14;
-  frame.output.counts.right = {71, 72};
+  frame.output.counts.matched = {71, 72};
   frame.output.counts.depth = {73, 74};
   frame.point_tracking_ms = 16;
   frame.point_tracking = {90, 1, 2, 4, 8, 24};
@@ -130,7 +130,7 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
           "lines_triangulated,lines_degenerate,lines_behind,lines_inconsistent,lines_too_long,"
           "lines_merged,lines_recognized,merge_candidates,merge_other_direction,merge_distant,"
           "merge_apart,merge_distant_in_image,merge_side_by_side,merge_inconsistent,"
-          "lines_in_window,lines_rejected,right_used,right_rejected,depths_used,"
+          "lines_in_window,lines_rejected,matched_used,matched_rejected,depths_used,"
           "depths_rejected\n"
           "1000000000,16.0000,32.0000,64.0000,1.0000,128.0000,2.0000,4.0000,8.0000,"
           "88.0000,75,1,2,4,8,24,7,6,5,44,1,2,4,8,30,9,53,3,10,11,12,13,15,16,17,18,19,20,"

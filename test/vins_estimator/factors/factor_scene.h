@@ -4,11 +4,14 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "common/geometry/rigid3.h"
 #include "common/geometry/so3.h"
 #include "simulator/random.h"
 #include "test/testing/cost_function_check.h"
+#include "vins_estimator/factors/camera_chain.h"
 #include "vins_estimator/geometry/plucker.h"
 
 namespace plm_vins::testing {
@@ -30,10 +33,18 @@ inline Block LineBlockOf(const PluckerLine& line) {
   return Eigen::Map<const Eigen::Matrix<double, kLineSize, 1>>(coordinates.data());
 }
 
-// A stereo camera on a body at two poses, of host and target, and two points that both see, which
-// are the ends of a line.
+// All kinds of observations.
+inline const std::vector<ChainKind>& ChainKinds() {
+  static const std::vector<ChainKind> kinds = {
+      {false, false}, {false, true}, {true, false}, {true, true}};
+  return kinds;
+}
+
+// A body with two cameras at two poses; a host and a target among these four images; and two points
+// that both see, which are the ends of a line.
 struct FactorScene {
-  explicit FactorScene(uint64_t seed) {
+  explicit FactorScene(uint64_t seed, const ChainKind& chain_kind = {false, true})
+      : kind(chain_kind) {
     simulator::Random random(seed);
     const auto rotation = [&random](double scale) {
       return SO3Exp(scale * random.NormalVector3());
@@ -44,31 +55,49 @@ struct FactorScene {
     };
     T_W_Bh = {rotation(1.0), random.NormalVector3()};
     T_W_Bt = T_W_Bh * Rigid3d(rotation(0.1), 0.3 * random.NormalVector3());
-    T_B_C = {rotation(0.3), 0.1 * random.NormalVector3()};
-    T_C_C1 = {rotation(0.05), Eigen::Vector3d(0.2, 0, 0) + 0.05 * random.NormalVector3()};
+    T_B_Ch = {rotation(0.3), 0.1 * random.NormalVector3()};
+    T_B_Ct = T_B_Ch * Rigid3d(rotation(0.05), Eigen::Vector3d(0.2, 0, 0));
+    if (kind.same_frame) T_W_Bt = T_W_Bh;
+    if (kind.same_camera) T_B_Ct = T_B_Ch;
     p_Ch = point();
     q_Ch = point();
   }
 
   Eigen::Vector3d InTarget(const Eigen::Vector3d& p) const {
-    return (T_W_Bt * T_B_C).Inverse() * (T_W_Bh * (T_B_C * p));
+    return (T_W_Bt * T_B_Ct).Inverse() * (T_W_Bh * (T_B_Ch * p));
   }
   Eigen::Vector2d SeenInTarget(const Eigen::Vector3d& p) const { return InTarget(p).hnormalized(); }
-  Eigen::Vector2d SeenInRight(const Eigen::Vector3d& p_C) const {
-    return (T_C_C1.Inverse() * p_C).hnormalized();
-  }
 
-  // Blocks of the poses: host, target, extrinsics.
+  // Blocks of the poses that the chain consists of.
   std::vector<Block> Poses() const {
-    return {PoseBlockOf(T_W_Bh), PoseBlockOf(T_W_Bt), PoseBlockOf(T_B_C)};
+    if (kind.is_host()) return {};
+    std::vector<Block> poses = {PoseBlockOf(T_B_Ch)};
+    if (!kind.same_frame) {
+      poses.push_back(PoseBlockOf(T_W_Bh));
+      poses.push_back(PoseBlockOf(T_W_Bt));
+    }
+    if (!kind.same_camera) poses.push_back(PoseBlockOf(T_B_Ct));
+    return poses;
   }
-  Block Mounting() const { return PoseBlockOf(T_C_C1); }
   Block Point() const { return PointBlockOf(p_Ch); }
   Block Line() const { return LineBlockOf(LineThrough(p_Ch, q_Ch)); }
 
-  Rigid3d T_W_Bh, T_W_Bt, T_B_C, T_C_C1;
+  ChainKind kind;
+  Rigid3d T_W_Bh, T_W_Bt, T_B_Ch, T_B_Ct;
   Eigen::Vector3d p_Ch, q_Ch;
 };
+
+// Calls `test` with scenes of each kind.
+template <typename Test>
+void ForEachScene(const Test& test) {
+  for (const ChainKind& kind : ChainKinds()) {
+    for (uint64_t seed = 1; seed <= 10; ++seed) {
+      SCOPED_TRACE("same frame " + std::to_string(kind.same_frame) + ", same camera " +
+                   std::to_string(kind.same_camera) + ", seed " + std::to_string(seed));
+      test(FactorScene(seed, kind));
+    }
+  }
+}
 
 // Concatenates blocks.
 inline std::vector<Block> Joined(std::vector<Block> blocks, const std::vector<Block>& others) {

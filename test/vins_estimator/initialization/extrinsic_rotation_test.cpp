@@ -38,9 +38,9 @@ struct Turns {
       const Vector3d turn = RandomVector(random).cwiseProduct(spread);
       const Vector3d noise = deviation * RandomVector(random);
       const bool outlier = random->Uniform(0, 1) < outlier_ratio;
-      const Quaterniond R_C0_C1 = R_B_C.conjugate() * SO3Exp(turn) * R_B_C * SO3Exp(noise);
+      const Quaterniond R_then_now = R_B_C.conjugate() * SO3Exp(turn) * R_B_C * SO3Exp(noise);
       pairs.push_back({SO3Exp(turn + gyro_bias * kDuration),
-                       outlier ? RandomRotation(random) : R_C0_C1, kDuration, kDeviation});
+                       outlier ? RandomRotation(random) : R_then_now, kDuration, kDeviation});
     }
     return pairs;
   }

@@ -51,7 +51,7 @@ struct Scene {
       Eigen::Vector2d xy = p_C.hnormalized();
       xy += noise * Eigen::Vector2d(random->Normal(), random->Normal());
       if (random->Uniform(0, 1) < outlier_ratio) xy.x() += random->Uniform(0.05, 0.2);
-      track.observations.push_back({view, xy});
+      track.observations.push_back({view, 0, xy});
     }
     points.push_back(p_G);
     tracks.push_back(track);

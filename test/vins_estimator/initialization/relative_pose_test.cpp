@@ -20,8 +20,8 @@ constexpr double kNoise = 0.5 / 460;
 
 // Two images of points 2 to 8 m away, or on a plane 5 m away.
 struct TwoViews {
-  Quaterniond R_C1_C0;
-  Vector3d t_C1_C0;
+  Quaterniond R_now_then;
+  Vector3d t_now_then;
 
   std::vector<Correspondence> Observe(int count, double noise, double outlier_ratio, uint64_t seed,
                                       bool planar = false) const {
@@ -30,7 +30,7 @@ struct TwoViews {
     while (static_cast<int>(result.size()) < count) {
       const Eigen::Vector2d xy(random.Uniform(-0.7, 0.7), random.Uniform(-0.5, 0.5));
       const double depth = planar ? 5 : random.Uniform(2, 8);
-      const Vector3d p_C1 = R_C1_C0 * (depth * xy.homogeneous()) + t_C1_C0;
+      const Vector3d p_C1 = R_now_then * (depth * xy.homogeneous()) + t_now_then;
       Correspondence c{xy, p_C1.hnormalized()};
       c.xy0 += noise * Eigen::Vector2d(random.Normal(), random.Normal());
       c.xy1 += noise * Eigen::Vector2d(random.Normal(), random.Normal());
@@ -46,7 +46,7 @@ struct TwoViews {
 // Typical motion of a quarter of a second of hovering and rotating.
 const TwoViews kViews{SO3Exp({0.05, -0.1, 0.03}), {0.3, -0.05, 0.1}};
 // The gyroscope's rotation, with the error of a bias of 0.1 rad/s over that time.
-const Quaterniond kGyro = SO3Exp({0.02, -0.01, 0.01}) * kViews.R_C1_C0;
+const Quaterniond kGyro = SO3Exp({0.02, -0.01, 0.01}) * kViews.R_now_then;
 
 TEST(RelativePoseTest, FindsRotationAndDirectionUnderNoiseAndOutliers) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
@@ -54,8 +54,8 @@ TEST(RelativePoseTest, FindsRotationAndDirectionUnderNoiseAndOutliers) {
     const auto pose =
         EstimateRelativePose(kViews.Observe(120, kNoise, 0.2, seed), kGyro, kNoise, &reason);
     ASSERT_TRUE(pose) << "seed " << seed << ": " << reason;
-    EXPECT_LT(pose->R_C1_C0.angularDistance(kViews.R_C1_C0), 0.004) << "seed " << seed;
-    EXPECT_LT(testing::AngleBetween(pose->t_C1_C0, kViews.t_C1_C0), 0.05) << "seed " << seed;
+    EXPECT_LT(pose->R_now_then.angularDistance(kViews.R_now_then), 0.004) << "seed " << seed;
+    EXPECT_LT(testing::AngleBetween(pose->t_now_then, kViews.t_now_then), 0.05) << "seed " << seed;
     EXPECT_GT(pose->num_inliers, 80) << "seed " << seed;
   }
 }
@@ -65,9 +65,9 @@ TEST(RelativePoseTest, ExactPointsGiveThePose) {
   const auto pose = EstimateRelativePose(kViews.Observe(60, 0, 0, 1), kGyro, kNoise, &reason);
   ASSERT_TRUE(pose) << reason;
   // The remaining error is caused by the gyroscope prior.
-  EXPECT_LT(pose->R_C1_C0.angularDistance(kViews.R_C1_C0), 1e-4);
-  EXPECT_LT(testing::AngleBetween(pose->t_C1_C0, kViews.t_C1_C0), 1e-4);
-  EXPECT_NEAR(pose->t_C1_C0.norm(), 1, 1e-12);
+  EXPECT_LT(pose->R_now_then.angularDistance(kViews.R_now_then), 1e-4);
+  EXPECT_LT(testing::AngleBetween(pose->t_now_then, kViews.t_now_then), 1e-4);
+  EXPECT_NEAR(pose->t_now_then.norm(), 1, 1e-12);
 }
 
 TEST(RelativePoseTest, StatedInformationMatchesTheSpread) {
@@ -78,7 +78,7 @@ TEST(RelativePoseTest, StatedInformationMatchesTheSpread) {
     const auto pose =
         EstimateRelativePose(kViews.Observe(120, kNoise, 0, seed), kGyro, kNoise, &reason);
     ASSERT_TRUE(pose) << reason;
-    const Vector3d error = SO3Log(pose->R_C1_C0 * kViews.R_C1_C0.conjugate());
+    const Vector3d error = SO3Log(pose->R_now_then * kViews.R_now_then.conjugate());
     normalized += error.dot(pose->rotation_information * error) / 3 / kRuns;
   }
   // Cauchy weights make the estimated information slightly too small.
@@ -87,12 +87,12 @@ TEST(RelativePoseTest, StatedInformationMatchesTheSpread) {
 }
 
 TEST(RelativePoseTest, PureRotationStillGivesTheRotation) {
-  const TwoViews turning{kViews.R_C1_C0, Vector3d::Zero()};
+  const TwoViews turning{kViews.R_now_then, Vector3d::Zero()};
   std::string reason;
   const auto pose =
       EstimateRelativePose(turning.Observe(120, kNoise, 0, 1), kGyro, kNoise, &reason);
   ASSERT_TRUE(pose) << reason;
-  EXPECT_LT(pose->R_C1_C0.angularDistance(turning.R_C1_C0), 0.005);
+  EXPECT_LT(pose->R_now_then.angularDistance(turning.R_now_then), 0.005);
 }
 
 // A plane has two solutions, and with noise the wrong one may fit better; the gyroscope decides.
@@ -104,7 +104,7 @@ TEST(RelativePoseTest, GyroResolvesThePlanarAmbiguity) {
     const auto pose = EstimateRelativePose(kViews.Observe(120, kNoise, 0, seed, /*planar=*/true),
                                            kGyro, kNoise, &reason);
     ASSERT_TRUE(pose) << reason;
-    right += pose->R_C1_C0.angularDistance(kViews.R_C1_C0) < 0.03;
+    right += pose->R_now_then.angularDistance(kViews.R_now_then) < 0.03;
   }
   EXPECT_EQ(right, kRuns);
 }
@@ -118,10 +118,10 @@ TEST(RelativePoseTest, RejectsFewOrUnrelatedPointsWithReason) {
 }
 
 TEST(RelativePoseTest, ParallaxIgnoresRotation) {
-  const auto points = TwoViews{kViews.R_C1_C0, Vector3d::Zero()}.Observe(50, 0, 0, 1);
-  EXPECT_NEAR(MedianParallax(points, kViews.R_C1_C0), 0, 1e-12);
+  const auto points = TwoViews{kViews.R_now_then, Vector3d::Zero()}.Observe(50, 0, 0, 1);
+  EXPECT_NEAR(MedianParallax(points, kViews.R_now_then), 0, 1e-12);
   EXPECT_GT(MedianParallax(points, Quaterniond::Identity()), 0.05);
-  EXPECT_EQ(MedianParallax({}, kViews.R_C1_C0), 0);
+  EXPECT_EQ(MedianParallax({}, kViews.R_now_then), 0);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ const Eigen::Quaterniond kR_B_C = SO3Exp({0.3, -1.2, 0.4});
 struct Errors {
   double delay = 0;
   double focal = 0;
-  Vector3d mounting = Vector3d::Zero();
+  Vector3d extrinsics = Vector3d::Zero();
   Eigen::Matrix3d gyro = Eigen::Matrix3d::Identity();
 };
 
@@ -34,10 +34,10 @@ RotationFit Explain(const Errors& errors, size_t count = 100, double turn = 0.1)
     pair.rate_change = 3 * turn * random.NormalVector3();
     pair.R_B0_B1 = SO3Exp(errors.gyro * (phi_B - errors.delay * pair.rate_change) +
                           Vector3d(0.003, -0.006, 0.009));
-    Vector3d phi_C = kR_B_C.conjugate() * (SO3Exp(errors.mounting) * phi_B);
+    Vector3d phi_C = kR_B_C.conjugate() * (SO3Exp(errors.extrinsics) * phi_B);
     phi_C.head<2>() /= 1 + errors.focal;
     if (i % 20 == 7) phi_C += Vector3d(0.3, 0, 0.2);
-    pair.R_C0_C1 = SO3Exp(phi_C + 0.002 * random.NormalVector3());
+    pair.R_then_now = SO3Exp(phi_C + 0.002 * random.NormalVector3());
   }
   return ExplainRotations(pairs, kR_B_C);
 }
@@ -66,9 +66,9 @@ TEST(RotationFit, FindsAWrongFocalLength) {
 
 TEST(RotationFit, FindsAWrongMounting) {
   Errors errors;
-  errors.mounting = {0.03, -0.04, 0};
+  errors.extrinsics = {0.03, -0.04, 0};
   const RotationFit fit = Explain(errors);
-  EXPECT_EQ(fit.cause, Cause::kMounting);
+  EXPECT_EQ(fit.cause, Cause::kExtrinsics);
   EXPECT_NEAR(fit.amount, 0.05, 0.005);
 }
 

@@ -17,8 +17,9 @@ using Eigen::Vector3d;
 constexpr int kViews = 6;
 constexpr double kPixel = 1 / 460.0;
 
-// A stereo camera that moves by 2 cm per view before a cloud of points, of which each is observed
-// by four views in a row and by the second camera in the first of these.
+// A stereo camera, whose first camera is the body, that moves by 2 cm per view before a cloud of
+// points, of which each is observed by four views in a row and by the second camera in the first of
+// these.
 struct Scene {
   Scene(double noise, double outlier_ratio, double step = 0.02) {
     simulator::Random random(1);
@@ -40,12 +41,11 @@ struct Scene {
     Track track;
     track.id = static_cast<int64_t>(tracks.size());
     for (int view = first; view < std::min(first + 4, kViews); ++view) {
-      track.observations.push_back({view, seen_from(T_W_C[view])});
+      track.observations.push_back({view, 0, seen_from(T_W_C[view])});
     }
-    track.observations.front().right = seen_from(T_W_C[first] * T_C_C1);
-    if (random->Uniform(0, 1) < outlier_ratio) {
-      track.observations.front().right->x() -= random->Uniform(0, 0.05);
-    }
+    Track::Observation second{first, 1, seen_from(T_W_C[first] * T_C_C1)};
+    if (random->Uniform(0, 1) < outlier_ratio) second.xy.x() -= random->Uniform(0, 0.05);
+    track.observations.insert(track.observations.begin() + 1, second);
     tracks.push_back(track);
   }
 
@@ -60,14 +60,15 @@ struct Scene {
   }
 
   std::optional<StereoStructure> Reconstruct() {
-    return ReconstructFromStereo(tracks, WrongRotations(), {T_C_C1, kPixel, kPixel}, &reason);
+    return ReconstructFromStereo(tracks, WrongRotations(), {{Rigid3d(), T_C_C1}, kPixel, kPixel},
+                                 &reason);
   }
 
   // The greatest error of a view's position relative to the first view's.
   double PositionError(const StereoStructure& structure) const {
     double greatest = 0;
     for (int i = 1; i < kViews; ++i) {
-      const Rigid3d found = structure.T_G_C[0].Inverse() * structure.T_G_C[i];
+      const Rigid3d found = structure.T_G_B[0].Inverse() * structure.T_G_B[i];
       const Rigid3d truth = T_W_C[0].Inverse() * T_W_C[i];
       greatest = std::max(greatest, (found.translation - truth.translation).norm());
       greatest = std::max(greatest, SO3Log(found.rotation.conjugate() * truth.rotation).norm());
@@ -98,10 +99,10 @@ TEST(StereoStructure, ToleratesNoiseAndWrongMatches) {
 TEST(StereoStructure, UsesMeasuredDepths) {
   Scene scene(/*noise=*/0, /*outlier_ratio=*/0);
   for (Track& track : scene.tracks) {
-    ViewObservation& first = track.observations.front();
-    const auto p_C = TriangulatePoint({{Rigid3d(), first.xy}, {scene.T_C_C1, *first.right}}, 0);
-    first.right.reset();
+    Track::Observation &first = track.observations[0], &second = track.observations[1];
+    const auto p_C = TriangulatePoint({{Rigid3d(), first.xy}, {scene.T_C_C1, second.xy}}, 0);
     first.depth = p_C.value().z();
+    track.observations.erase(track.observations.begin() + 1);
   }
   const auto structure = scene.Reconstruct();
   ASSERT_TRUE(structure) << scene.reason;
@@ -118,7 +119,7 @@ TEST(StereoStructure, NeedsNoMotion) {
 TEST(StereoStructure, ReportsTooFewPointsWithDepth) {
   Scene scene(0, 0);
   for (Track& track : scene.tracks) {
-    if (track.id % 8 != 0) track.observations.front().right.reset();
+    if (track.id % 8 != 0) track.observations.erase(track.observations.begin() + 1);
   }
   EXPECT_FALSE(scene.Reconstruct());
   EXPECT_NE(scene.reason.find("the sensor: 5 of 12"), std::string::npos) << scene.reason;

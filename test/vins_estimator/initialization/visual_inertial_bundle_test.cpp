@@ -30,8 +30,10 @@ struct Problem {
     const testing::SimulatedFlight flight = testing::SimulateFlight(simulation, 3);
     const double focal_length =
         CameraModel::Create(flight.sensor.cameras[0].parameters)->FocalLength();
-    options = {flight.sensor.cameras[0].T_B_C, flight.sensor.gravity_norm,
-               simulation.point_noise_px / focal_length, flight.sensor.accel_bias_deviation};
+    options = {{flight.sensor.cameras[0].T_B_C},
+               flight.sensor.gravity_norm,
+               simulation.point_noise_px / focal_length,
+               flight.sensor.accel_bias_deviation};
     std::vector<const PointFrame*> views;
     std::vector<ImuSample> imu;
     for (int i = 0; i <= kImagesPerView * (kViews - 1); ++i) {
@@ -53,8 +55,8 @@ struct Problem {
 
   std::optional<Eigen::Vector3d> Triangulate(const Track& track) const {
     std::vector<PosedPointObservation> observations;
-    for (const ViewObservation& o : track.observations) {
-      observations.push_back({truth[o.view].T_W_B() * options.T_B_C, o.xy});
+    for (const Track::Observation& o : track.observations) {
+      observations.push_back({truth[o.view].T_W_B() * options.T_B_C[o.camera], o.xy});
     }
     return TriangulatePoint(observations, kMinAngle);
   }

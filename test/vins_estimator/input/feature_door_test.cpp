@@ -30,9 +30,8 @@ TEST(FeatureDoor, RemovesWhatTheConfigurationDoesNotHave) {
   door.Admit(&lines);
   ASSERT_EQ(points.points.size(), 1u);
   EXPECT_FALSE(points.points[0].depth);
-  EXPECT_FALSE(points.points[0].right);
   ASSERT_EQ(lines.lines.size(), 1u);
-  EXPECT_FALSE(lines.lines[0].right);
+  EXPECT_EQ(lines.lines[0].camera, 0);
   const DropCounts drops = door.Drops();
   ASSERT_EQ(drops.size(), 2u);
   EXPECT_EQ(drops[0].count, 2);
@@ -47,7 +46,7 @@ TEST(FeatureDoor, AdmitsWhatTheConfigurationHas) {
   PointFrame points = StereoPointsWithDepth();
   door.Admit(&points);
   EXPECT_EQ(points.points.at(0).depth, 2.5);
-  EXPECT_EQ(points.points.at(0).right, Eigen::Vector2d(0.125, -0.5));
+  EXPECT_EQ(points.points.at(1).xy, Eigen::Vector2d(0.125, -0.5));
   EXPECT_TRUE(door.Drops().empty());
 }
 

@@ -118,9 +118,9 @@ double LineError(const RollingCamera& camera, double t, const FrameMeasurement& 
 
 // The corrected second image of a flight.
 FrameMeasurement Moved(const RollingCamera& camera) {
-  RollingShutter shutter(camera.parameters());
-  shutter.ToStamp(camera.Image(0), camera.R_B_C(), kReadout);
-  return shutter.ToStamp(camera.Image(kInterval), camera.R_B_C(), kReadout);
+  RollingShutter shutter({CameraSensor{"", camera.parameters(), {}}});
+  shutter.ToStamp(camera.Image(0), {camera.R_B_C()}, kReadout);
+  return shutter.ToStamp(camera.Image(kInterval), {camera.R_B_C()}, kReadout);
 }
 
 TEST(RollingShutter, MovesPointsAndLinesToTheStamp) {
@@ -139,9 +139,9 @@ TEST(RollingShutter, GyroGivesTheChangeOfMotion) {
   FrameMeasurement first = camera.Image(0), second = camera.Image(kInterval);
   const FrameMeasurement moved = Moved(camera);
   for (ImuSample& sample : second.imu) sample.gyro.setZero();
-  RollingShutter deaf(camera.parameters());
-  deaf.ToStamp(first, camera.R_B_C(), kReadout);
-  const FrameMeasurement by_tracks = deaf.ToStamp(second, camera.R_B_C(), kReadout);
+  RollingShutter deaf({CameraSensor{"", camera.parameters(), {}}});
+  deaf.ToStamp(first, {camera.R_B_C()}, kReadout);
+  const FrameMeasurement by_tracks = deaf.ToStamp(second, {camera.R_B_C()}, kReadout);
   EXPECT_LT(PointError(camera, kInterval, moved), 0.6 * PointError(camera, kInterval, by_tracks));
   EXPECT_LT(LineError(camera, kInterval, moved), 0.6 * LineError(camera, kInterval, by_tracks));
 }
@@ -158,18 +158,34 @@ TEST(RollingShutter, PointsGetTheirVelocity) {
 
 TEST(RollingShutter, IgnoresNewFeatures) {
   const RollingCamera camera(Vector3d::Zero());
-  RollingShutter shutter(camera.parameters());
+  RollingShutter shutter({CameraSensor{"", camera.parameters(), {}}});
   FrameMeasurement first = camera.Image(0);
   first.points.points.resize(10);
   first.lines.reset();
-  const FrameMeasurement moved = shutter.ToStamp(first, camera.R_B_C(), kReadout);
+  const FrameMeasurement moved = shutter.ToStamp(first, {camera.R_B_C()}, kReadout);
   EXPECT_TRUE(moved.points.points.empty());
   EXPECT_FALSE(moved.lines);
   const FrameMeasurement second =
-      shutter.ToStamp(camera.Image(kInterval), camera.R_B_C(), kReadout);
+      shutter.ToStamp(camera.Image(kInterval), {camera.R_B_C()}, kReadout);
   EXPECT_GT(second.points.points.size(), 5u);
   EXPECT_LE(second.points.points.size(), 10u);
   EXPECT_TRUE(second.lines->lines.empty());
+}
+
+// A match in a second camera has no observation in the previous image.
+TEST(RollingShutter, MatchesMoveLikeTheFirstCamera) {
+  const RollingCamera camera(Vector3d::Zero());
+  const CameraSensor sensor{"", camera.parameters(), {}};
+  RollingShutter shutter({sensor, sensor});
+  const std::vector<Eigen::Quaterniond> R_B_C = {camera.R_B_C(), camera.R_B_C()};
+  shutter.ToStamp(camera.Image(0), R_B_C, kReadout);
+  FrameMeasurement second = camera.Image(kInterval);
+  PointObservation match = second.points.points.front();
+  match.camera = 1;
+  second.points.points.push_back(match);
+  const FrameMeasurement moved = shutter.ToStamp(second, R_B_C, kReadout);
+  EXPECT_EQ(moved.points.points.back().xy, moved.points.points.front().xy);
+  EXPECT_EQ(moved.points.points.back().velocity, moved.points.points.front().velocity);
 }
 
 }  // namespace

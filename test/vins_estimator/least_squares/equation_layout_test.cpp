@@ -13,6 +13,8 @@
 namespace plm_vins {
 namespace {
 
+constexpr ChainKind kOtherFrame = {/*same_frame=*/false, /*same_camera=*/true};
+
 using ::testing::ElementsAre;
 
 // Poses of three frames, one motion, calibration, and a point that the first and last frames
@@ -28,8 +30,8 @@ class EquationLayoutTest : public ::testing::Test {
     problem_.AddTerm(ZeroVelocityFactor(1.0), nullptr, {motion_});
     const int landmark = problem_.AddLandmark({BlockKind::kPoint, 7}, values_.data());
     point_ = problem_.Find({BlockKind::kPoint, 7});
-    problem_.AddLandmarkTerm(landmark, PointFactor(TimedBearing(), 1.0), nullptr,
-                             {poses_[2], poses_[0], extrinsic_, td_, point_});
+    problem_.AddLandmarkTerm(landmark, PointFactor(kOtherFrame, TimedBearing(), 1.0), nullptr,
+                             {extrinsic_, poses_[2], poses_[0], td_, point_});
   }
 
   int Add(BlockKind kind, int64_t key) { return problem_.AddVariable({kind, key}, values_.data()); }

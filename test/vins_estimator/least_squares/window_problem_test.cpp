@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
 
@@ -39,11 +41,12 @@ TEST(WindowProblem, KeepsTermsWithTheirLandmark) {
   const int motion_index = problem.AddVariable({BlockKind::kMotion, 1}, motion);
   const int td_index = problem.AddVariable({BlockKind::kTimeOffset, 0}, &td);
   problem.AddTerm(ZeroVelocityFactor(1.0), nullptr, {motion_index});
+  const ChainKind of_host{/*same_frame=*/true, /*same_camera=*/true};
   for (int64_t id : {0, 1}) {
     const int landmark = problem.AddLandmark({BlockKind::kPoint, id}, points[id]);
     EXPECT_EQ(landmark, id);
     const int point = problem.Find({BlockKind::kPoint, id});
-    problem.AddLandmarkTerm(landmark, PointHostFactor(TimedBearing(), 1.0), nullptr,
+    problem.AddLandmarkTerm(landmark, PointFactor(of_host, TimedBearing(), 1.0), nullptr,
                             {td_index, point});
   }
   EXPECT_EQ(problem.terms().size(), 1u);
@@ -54,6 +57,13 @@ TEST(WindowProblem, KeepsTermsWithTheirLandmark) {
   EXPECT_EQ(second.terms[0].variable_count, 2);
   EXPECT_EQ(second.terms[0].variables[0], td_index);
   EXPECT_EQ(second.terms[0].variables[1], second.variable);
+}
+
+TEST(WindowProblem, RejectsATermWithTooFewVariables) {
+  WindowProblem problem;
+  double motion[9] = {};
+  problem.AddVariable({BlockKind::kMotion, 1}, motion);
+  EXPECT_THROW(problem.AddTerm(ZeroVelocityFactor(1.0), nullptr, {}), std::logic_error);
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ TEST_F(SeeTest, DeviationIsProportionalToTheNoise) {
 }
 
 TEST_F(SeeTest, FewObservationsHaveNoDeviation) {
-  line_.views.pop_back();
+  line_.observations.pop_back();
   const auto seen = See(window_, Eigen::Quaterniond::Identity(), kNoise, line_);
   ASSERT_TRUE(seen);
   EXPECT_EQ(seen->place_sigma, 0);
@@ -98,15 +98,15 @@ TEST_F(SeeTest, FewObservationsHaveNoDeviation) {
 TEST_F(SeeTest, DistanceInImageIsThatOfTheFartherEnd) {
   const Vector3d down(0, 0.1, 0);
   const PluckerLine shifted = LineThrough(start_W_ + down, end_W_ + down);
-  const double distance = DistanceInImage(window_, shifted, line_.views[0]);
+  const double distance = DistanceInImage(window_, shifted, line_.observations[0]);
   EXPECT_GT(distance, 0.1 / 6 * 0.98);
   EXPECT_LT(distance, 0.1 / 5);
-  EXPECT_LT(DistanceInImage(window_, LineInWorld(line_, window_), line_.views[0]), 1e-6);
+  EXPECT_LT(DistanceInImage(window_, LineInWorld(line_, window_), line_.observations[0]), 1e-6);
 }
 
 TEST_F(SeeTest, ALineThroughTheCameraHasNoImage) {
   const PluckerLine through = LineThrough(Vector3d::Zero(), end_W_);
-  EXPECT_TRUE(std::isinf(DistanceInImage(window_, through, line_.views[0])));
+  EXPECT_TRUE(std::isinf(DistanceInImage(window_, through, line_.observations[0])));
 }
 
 }  // namespace

@@ -6,28 +6,31 @@
 namespace plm_vins {
 namespace {
 
-LineView View(int64_t t_ns, double length) { return {t_ns, {{0, 0}, {length, 0}}}; }
+LineLandmark::Observation Seen(int64_t t_ns, double length, int camera = 0) {
+  return {{t_ns, camera}, {{0, 0}, {length, 0}}};
+}
 
-std::vector<int64_t> Stamps(const std::vector<LineView>& views) {
+std::vector<int64_t> Stamps(const std::vector<LineLandmark::Observation>& observations) {
   std::vector<int64_t> stamps;
-  stamps.reserve(views.size());
-  for (const LineView& view : views) stamps.push_back(view.t_ns);
+  stamps.reserve(observations.size());
+  for (const LineLandmark::Observation& o : observations) stamps.push_back(o.t_ns);
   return stamps;
 }
 
-TEST(AddAnchorView, KeepsTheFirstAndTheNewestByTime) {
-  std::vector<LineView> views;
-  for (const int64_t t : {30, 10, 20, 50, 40}) AddAnchorView(View(t, 1), &views);
-  EXPECT_EQ(Stamps(views), (std::vector<int64_t>{10, 30, 40, 50}));
+TEST(AddAnchorObservation, KeepsTheFirstAndTheNewestByTime) {
+  std::vector<LineLandmark::Observation> observations;
+  for (const int64_t t : {30, 10, 20, 50, 40}) AddAnchorObservation(Seen(t, 1), &observations);
+  EXPECT_EQ(Stamps(observations), (std::vector<int64_t>{10, 30, 40, 50}));
 }
 
-// Two parts of a merged line may have observations by one anchor.
-TEST(AddAnchorView, OfOneAnchorKeepsTheLongerSegment) {
-  std::vector<LineView> views = {View(10, 0.3)};
-  AddAnchorView(View(10, 0.5), &views);
-  AddAnchorView(View(10, 0.4), &views);
-  ASSERT_EQ(Stamps(views), std::vector<int64_t>{10});
-  EXPECT_EQ(Length(views[0]), 0.5);
+// Two parts of a merged line may have observations in one image.
+TEST(AddAnchorObservation, OfOneImageKeepsTheLongerSegment) {
+  std::vector<LineLandmark::Observation> observations = {Seen(10, 0.3)};
+  AddAnchorObservation(Seen(10, 0.5), &observations);
+  AddAnchorObservation(Seen(10, 0.4), &observations);
+  AddAnchorObservation(Seen(10, 0.1, /*camera=*/1), &observations);
+  ASSERT_EQ(Stamps(observations), (std::vector<int64_t>{10, 10}));
+  EXPECT_EQ(observations[0].Length(), 0.5);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ class LineMapTest : public ::testing::Test {
  protected:
   LineMapTest() {
     simulator::Random random(1);
-    window_.SetExtrinsic({SO3Exp({0.1, 0.2, -0.1}), {0.05, -0.02, 0.01}});
+    window_.cameras[0].SetExtrinsics({SO3Exp({0.1, 0.2, -0.1}), {0.05, -0.02, 0.01}});
     while (segments_W_.size() < kLines) {
       const Segment segment{RandomPoint(&random), RandomPoint(&random)};
       if (segment.length() > 1) segments_W_.push_back(segment);
@@ -52,12 +52,14 @@ class LineMapTest : public ::testing::Test {
     frame.state.t_ns = Stamp(index);
     const Rigid3d T_W_C(SO3Exp({0.03 * index, -0.05 * index, 0}),
                         {0.3 * index, 0.1 * index * index, 0});
-    frame.state.SetPose(T_W_C * window_.T_B_C().Inverse());
+    frame.state.SetPose(T_W_C * window_.cameras[0].T_B_C().Inverse());
     window_.frames.push_back(frame);
     map_.AddFrame(Observe(segments_W_, index));
   }
 
-  Rigid3d T_C_W(int frame) const { return window_.T_W_C(window_.frames[frame]).Inverse(); }
+  Rigid3d T_C_W(int frame) const {
+    return window_.T_W_C({window_.frames[frame].state.t_ns, 0}).Inverse();
+  }
 
   // Observes segment i with id i.
   LineFrame Observe(const std::vector<Segment>& segments_W, int frame) const {
@@ -99,18 +101,18 @@ class LineMapTest : public ::testing::Test {
   void TurnOldestIntoAnchor() {
     for (auto& [id, landmark] : map_.landmarks()) {
       MoveHost(window_, 1, &landmark);
-      landmark.anchor_views = {landmark.views.front()};
-      landmark.views.erase(landmark.views.begin());
+      landmark.anchor_observations = {landmark.observations.front()};
+      landmark.observations.erase(landmark.observations.begin());
     }
     window_.TurnOldestIntoAnchor();
   }
 
   // Moves an observation perpendicular to itself.
-  static void Shift(double distance, LineView* view) {
-    const Vector2d along = (view->segment.end - view->segment.start).normalized();
+  static void Shift(double distance, LineLandmark::Observation* observation) {
+    const Vector2d along = (observation->segment.end - observation->segment.start).normalized();
     const Vector2d shift = distance * Vector2d(-along.y(), along.x());
-    view->segment.start += shift;
-    view->segment.end += shift;
+    observation->segment.start += shift;
+    observation->segment.end += shift;
   }
 
   std::vector<Segment> segments_W_;
@@ -124,11 +126,11 @@ TEST_F(LineMapTest, CollectsObservationsByTime) {
   frame.lines = {{3, {0.1, 0.2}, {0.3, 0.4}}, {77, {0, 0}, {1, 0}}};
   map_.AddFrame(frame);
   EXPECT_EQ(map_.landmarks().size(), kLines + 1u);
-  const LineView& view = Landmark(3).views.back();
-  EXPECT_EQ(Landmark(3).views.size(), 5u);
-  EXPECT_EQ(view.t_ns, 200);
-  EXPECT_EQ(view.segment.start, Vector2d(0.1, 0.2));
-  EXPECT_EQ(view.segment.end, Vector2d(0.3, 0.4));
+  const LineLandmark::Observation& last = Landmark(3).observations.back();
+  EXPECT_EQ(Landmark(3).observations.size(), 5u);
+  EXPECT_EQ(last.t_ns, 200);
+  EXPECT_EQ(last.segment.start, Vector2d(0.1, 0.2));
+  EXPECT_EQ(last.segment.end, Vector2d(0.3, 0.4));
   EXPECT_EQ(Landmark(77).host().t_ns, 200);
   EXPECT_EQ(Landmark(77).id, 77);
   EXPECT_FALSE(Landmark(77).triangulated);
@@ -140,7 +142,7 @@ TEST_F(LineMapTest, IgnoresZeroLengthSegments) {
   frame.t_ns = 200;
   frame.lines = {{3, {0.1, 0.2}, {0.1, 0.2}}, {77, {0, 0}, {0, 0}}, {78, {nan, 0}, {1, 0}}};
   map_.AddFrame(frame);
-  EXPECT_EQ(Landmark(3).views.size(), 4u);
+  EXPECT_EQ(Landmark(3).observations.size(), 4u);
   EXPECT_EQ(map_.landmarks().count(77), 0u);
   EXPECT_EQ(map_.landmarks().count(78), 0u);
 }
@@ -179,11 +181,11 @@ TEST_F(LineMapTest, WaitsForObservations) {
 TEST_F(LineMapTest, CountsByCauseAndRemovesImpossibleLines) {
   const Segment behind_W{{-1, 0, -4}, {1, 1, -5}}, long_W{{-6, 1, 5}, {6, 2, 6}};
   for (int i = 0; i < 4; ++i) {
-    Landmark(1).views[i] = Landmark(1).views[0];
-    Landmark(2).views[i].segment = See(behind_W, i);
-    Landmark(4).views[i].segment = See(long_W, i);
+    Landmark(1).observations[i] = Landmark(1).observations[0];
+    Landmark(2).observations[i].segment = See(behind_W, i);
+    Landmark(4).observations[i].segment = See(long_W, i);
   }
-  Shift(0.05, &Landmark(3).views[1]);
+  Shift(0.05, &Landmark(3).observations[1]);
   const LineTriangulationCounts counts = Triangulate();
   EXPECT_EQ(counts.degenerate, 1);
   EXPECT_EQ(counts.behind, 1);
@@ -196,11 +198,11 @@ TEST_F(LineMapTest, CountsByCauseAndRemovesImpossibleLines) {
 }
 
 TEST_F(LineMapTest, DegenerateLinesWaitAndAreFoundLater) {
-  const std::vector<LineView> all = Landmark(6).views;
-  Landmark(6).views = {all[0], all[0], all[0]};  // as if the camera had not moved
+  const std::vector<LineLandmark::Observation> all = Landmark(6).observations;
+  Landmark(6).observations = {all[0], all[0], all[0]};  // as if the camera had not moved
   EXPECT_EQ(Triangulate().degenerate, 1);
   EXPECT_FALSE(Landmark(6).triangulated);
-  Landmark(6).views = all;
+  Landmark(6).observations = all;
   EXPECT_EQ(Triangulate().triangulated, 1);
   ExpectAllInPlace();
 }
@@ -211,7 +213,7 @@ TEST_F(LineMapTest, RemovedHostTransfersItsLines) {
     map_.RemoveFrame(window_, Stamp(frame));
     ExpectAllInPlace();
   }
-  EXPECT_EQ(Landmark(0).views.size(), 1u);
+  EXPECT_EQ(Landmark(0).observations.size(), 1u);
   EXPECT_EQ(Landmark(0).host().t_ns, Stamp(3));
   map_.RemoveFrame(window_, Stamp(3));
   EXPECT_TRUE(map_.landmarks().empty());
@@ -222,17 +224,17 @@ TEST_F(LineMapTest, HostOnTheLineIsRejected) {
   const Segment& segment = segments_W_[7];
   const Vector3d on_the_line = 0.5 * (segment.start + segment.end);
   WindowFrame& next = window_.frames[1];
-  const Rigid3d T_W_C(window_.T_W_C(next).rotation, on_the_line);
-  next.state.SetPose(T_W_C * window_.T_B_C().Inverse());
+  const Rigid3d T_W_C(window_.T_W_C({next.state.t_ns, 0}).rotation, on_the_line);
+  next.state.SetPose(T_W_C * window_.cameras[0].T_B_C().Inverse());
   MoveHost(window_, 1, &Landmark(7));
   EXPECT_FALSE(Landmark(7).triangulated);
 }
 
 TEST_F(LineMapTest, RestartKeepsPositionAndNewestObservation) {
   Triangulate();
-  Landmark(7).views.pop_back();        // no longer observed
-  MoveHost(window_, 1, &Landmark(8));  // has another host
-  Landmark(8).views.erase(Landmark(8).views.begin());
+  Landmark(7).observations.pop_back();  // no longer observed
+  MoveHost(window_, 1, &Landmark(8));   // has another host
+  Landmark(8).observations.erase(Landmark(8).observations.begin());
   map_.RemoveFrame(window_, -1);  // of no frame: changes nothing
 
   int departures = 0;
@@ -243,15 +245,15 @@ TEST_F(LineMapTest, RestartKeepsPositionAndNewestObservation) {
   });
   EXPECT_EQ(departures, 1);
   EXPECT_EQ(map_.landmarks().count(7), 0u);
-  EXPECT_EQ(Landmark(8).views.size(), 3u);
-  EXPECT_EQ(Landmark(9).views.size(), 1u);
+  EXPECT_EQ(Landmark(8).observations.size(), 3u);
+  EXPECT_EQ(Landmark(9).observations.size(), 1u);
   EXPECT_EQ(Landmark(9).host().t_ns, Stamp(3));
   ExpectAllInPlace();
 }
 
 TEST_F(LineMapTest, RestartKeepsUntriangulatedLines) {
   map_.Reinitialize(window_, Stamp(0), [](const LineLandmark&) { FAIL(); });
-  EXPECT_EQ(Landmark(9).views.size(), 4u);
+  EXPECT_EQ(Landmark(9).observations.size(), 4u);
 }
 
 TEST_F(LineMapTest, ObservedSegmentIsTheUnionOfObservations) {
@@ -260,10 +262,10 @@ TEST_F(LineMapTest, ObservedSegmentIsTheUnionOfObservations) {
   const auto at = [&whole](double share) -> Vector3d {
     return whole.start + share * (whole.end - whole.start);
   };
-  Landmark(3).views[0].segment = See({at(0.3), at(0.6)}, 0);
-  Landmark(3).views[1].segment = See({at(0.7), at(0.4)}, 1);  // reversed
-  Landmark(3).views[2].segment = See({at(0.5), at(0.55)}, 2);
-  Landmark(3).views[3].segment = See({at(0.2), at(0.3)}, 3);
+  Landmark(3).observations[0].segment = See({at(0.3), at(0.6)}, 0);
+  Landmark(3).observations[1].segment = See({at(0.7), at(0.4)}, 1);  // reversed
+  Landmark(3).observations[2].segment = See({at(0.5), at(0.55)}, 2);
+  Landmark(3).observations[3].segment = See({at(0.2), at(0.3)}, 3);
   const auto seen = ObservedSegment(Landmark(3), window_);
   ASSERT_TRUE(seen);
   EXPECT_EQ(seen->id, 3);
@@ -276,21 +278,22 @@ TEST_F(LineMapTest, ObservedSegmentIsInFrontOfItsCameras) {
   Triangulate();
   WindowFrame& frame = window_.frames[2];
   const Rigid3d turned(SO3Exp({0, M_PI, 0}), Vector3d::Zero());
-  const Rigid3d T_W_C = window_.T_W_C(frame) * turned;
-  frame.state.SetPose(T_W_C * window_.T_B_C().Inverse());
+  const Rigid3d T_W_C = window_.T_W_C({frame.state.t_ns, 0}) * turned;
+  frame.state.SetPose(T_W_C * window_.cameras[0].T_B_C().Inverse());
   EXPECT_FALSE(ObservedSegment(Landmark(3), window_));
 }
 
 TEST_F(LineMapTest, RemovesOutlierObservationsAndLines) {
   const LineLimits limits(kNoise, kMaxLength);
   Triangulate();
-  Shift(6 * kNoise, &Landmark(1).views[2]);                              // one outlier
-  for (int i = 0; i < 4; ++i) Shift(4 * kNoise, &Landmark(2).views[i]);  // outlier on average
-  for (int i = 1; i < 4; ++i) Shift(6 * kNoise, &Landmark(3).views[i]);  // all outliers
-  Shift(4 * kNoise, &Landmark(5).views[2]);                              // the mean is an inlier
+  Shift(6 * kNoise, &Landmark(1).observations[2]);  // one outlier
+  for (int i = 0; i < 4; ++i)
+    Shift(4 * kNoise, &Landmark(2).observations[i]);  // outlier on average
+  for (int i = 1; i < 4; ++i) Shift(6 * kNoise, &Landmark(3).observations[i]);  // all outliers
+  Shift(4 * kNoise, &Landmark(5).observations[2]);  // the mean is an inlier
   EXPECT_EQ(map_.RemoveOutliers(window_, limits), 1 + 1 + (3 + 1));
-  EXPECT_EQ(Landmark(1).views.size(), 3u);
-  EXPECT_EQ(Landmark(5).views.size(), 4u);
+  EXPECT_EQ(Landmark(1).observations.size(), 3u);
+  EXPECT_EQ(Landmark(5).observations.size(), 4u);
   EXPECT_EQ(map_.landmarks().count(2), 0u);
   EXPECT_EQ(map_.landmarks().count(3), 0u);
   EXPECT_EQ(map_.landmarks().size(), kLines - 2u);
@@ -304,8 +307,8 @@ TEST_F(LineMapTest, RemovesLinesBehindTheirCamerasAndLinesTooLong) {
   const Segment& segment = segments_W_[4];  // mirrored in the camera: same image
   Landmark(4).coordinates =
       ToOrthonormal(LineThrough(-(T_C_W0 * segment.start), -(T_C_W0 * segment.end)));
-  Landmark(4).views.resize(1);
-  Landmark(4).views.push_back(Landmark(4).views[0]);
+  Landmark(4).observations.resize(1);
+  Landmark(4).observations.push_back(Landmark(4).observations[0]);
   EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 1);
   EXPECT_EQ(map_.landmarks().count(4), 0u);
 
@@ -320,12 +323,14 @@ TEST_F(LineMapTest, RemovesLinesBehindTheirCamerasAndLinesTooLong) {
 }
 
 TEST_F(LineMapTest, DoesNotJudgeUntriangulatedOrSingleObservations) {
-  for (LineView& view : Landmark(2).views) Shift(view.t_ns == Stamp(1) ? 0.1 : 0, &view);
+  for (LineLandmark::Observation& o : Landmark(2).observations) {
+    Shift(o.t_ns == Stamp(1) ? 0.1 : 0, &o);
+  }
   EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 0);
-  EXPECT_EQ(Landmark(2).views.size(), 4u);
+  EXPECT_EQ(Landmark(2).observations.size(), 4u);
   Triangulate();
-  Landmark(3).views.resize(1);
-  Shift(0.1, &Landmark(3).views[0]);
+  Landmark(3).observations.resize(1);
+  Shift(0.1, &Landmark(3).observations[0]);
   EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 0);
   EXPECT_EQ(map_.landmarks().count(3), 1u);
 }
@@ -334,37 +339,38 @@ TEST_F(LineMapTest, RemovesContradictingAnchorObservations) {
   const LineLimits limits(kNoise, kMaxLength);
   Triangulate();
   TurnOldestIntoAnchor();
-  Shift(4 * kNoise, &Landmark(1).anchor_views[0]);
+  Shift(4 * kNoise, &Landmark(1).anchor_observations[0]);
   EXPECT_EQ(map_.RemoveOutliers(window_, limits), 0);
-  Shift(2 * kNoise, &Landmark(1).anchor_views[0]);
+  Shift(2 * kNoise, &Landmark(1).anchor_observations[0]);
   EXPECT_EQ(map_.RemoveOutliers(window_, limits), 1);
-  EXPECT_TRUE(Landmark(1).anchor_views.empty());
-  EXPECT_EQ(Landmark(1).views.size(), 3u);
-  EXPECT_EQ(Landmark(2).anchor_views.size(), 1u);
+  EXPECT_TRUE(Landmark(1).anchor_observations.empty());
+  EXPECT_EQ(Landmark(1).observations.size(), 3u);
+  EXPECT_EQ(Landmark(2).anchor_observations.size(), 1u);
   ExpectAllInPlace();
 }
 
 TEST_F(LineMapTest, RemovesObservationsOfARemovedAnchor) {
   Triangulate();
   TurnOldestIntoAnchor();
-  LineView of_another;
+  LineLandmark::Observation of_another;
   of_another.t_ns = 50;
-  Landmark(1).anchor_views.push_back(of_another);
+  Landmark(1).anchor_observations.push_back(of_another);
   map_.RemoveAnchor(Stamp(0));
-  ASSERT_EQ(Landmark(1).anchor_views.size(), 1u);
-  EXPECT_EQ(Landmark(1).anchor_views[0].t_ns, 50);
-  EXPECT_TRUE(Landmark(2).anchor_views.empty());
-  EXPECT_EQ(Landmark(1).views.size(), 3u);
+  ASSERT_EQ(Landmark(1).anchor_observations.size(), 1u);
+  EXPECT_EQ(Landmark(1).anchor_observations[0].t_ns, 50);
+  EXPECT_TRUE(Landmark(2).anchor_observations.empty());
+  EXPECT_EQ(Landmark(1).observations.size(), 3u);
 }
 
 TEST_F(LineMapTest, RestartDropsAnchorObservations) {
   Triangulate();
   TurnOldestIntoAnchor();
-  Landmark(8).views.erase(Landmark(8).views.begin() + 1, Landmark(8).views.end());
+  Landmark(8).observations.erase(Landmark(8).observations.begin() + 1,
+                                 Landmark(8).observations.end());
   map_.Reinitialize(window_, Stamp(1), [](const LineLandmark&) { FAIL(); });
-  EXPECT_EQ(Landmark(7).views.size(), 1u);
-  EXPECT_TRUE(Landmark(7).anchor_views.empty());
-  EXPECT_EQ(Landmark(8).anchor_views.size(), 1u);  // was not marginalized
+  EXPECT_EQ(Landmark(7).observations.size(), 1u);
+  EXPECT_TRUE(Landmark(7).anchor_observations.empty());
+  EXPECT_EQ(Landmark(8).anchor_observations.size(), 1u);  // was not marginalized
   ExpectInPlace(Landmark(7));
 }
 

@@ -21,15 +21,16 @@ SeenLine LineAlongX(double start, double end, double height = 0, double sigma = 
   return line;
 }
 
-LineView ViewAt(int64_t t_ns) {
-  LineView view;
-  view.t_ns = t_ns;
-  return view;
+LineLandmark::Observation SeenAt(int64_t t_ns) {
+  LineLandmark::Observation observation;
+  observation.t_ns = t_ns;
+  return observation;
 }
 
 std::vector<int64_t> StampsOf(const RememberedLine& line) {
   std::vector<int64_t> stamps;
-  for (const LineView& view : line.anchor_views) stamps.push_back(view.t_ns);
+  for (const LineLandmark::Observation& observation : line.anchor_observations)
+    stamps.push_back(observation.t_ns);
   return stamps;
 }
 
@@ -50,19 +51,21 @@ class LineMemoryTest : public ::testing::Test {
 TEST_F(LineMemoryTest, HoldsOnlyAddedLines) {
   memory_.Keep(3, LineAlongX(1, 2));
   ExpectSeen(3, {1, 0, 0}, {2, 0, 0});
-  EXPECT_TRUE(memory_.Find(3)->anchor_views.empty());
+  EXPECT_TRUE(memory_.Find(3)->anchor_observations.empty());
   EXPECT_EQ(memory_.Find(4), nullptr);
 }
 
 TEST_F(LineMemoryTest, AllowsChangesOfAllAnchorObservations) {
   memory_.Keep(3, LineAlongX(1, 2));
   memory_.Keep(4, LineAlongX(1, 2));
-  memory_.KeepView(3, ViewAt(10));
-  memory_.KeepView(3, ViewAt(20));
-  memory_.KeepView(4, ViewAt(20));
-  memory_.ChangeViews([](LineView* view) { view->segment.end.x() += 2; });
+  memory_.KeepObservation(3, SeenAt(10));
+  memory_.KeepObservation(3, SeenAt(20));
+  memory_.KeepObservation(4, SeenAt(20));
+  memory_.ChangeObservations(
+      [](LineLandmark::Observation* observation) { observation->segment.end.x() += 2; });
   for (const auto& [id, line] : memory_.lines()) {
-    for (const LineView& view : line.anchor_views) EXPECT_EQ(view.segment.end.x(), 2);
+    for (const LineLandmark::Observation& observation : line.anchor_observations)
+      EXPECT_EQ(observation.segment.end.x(), 2);
   }
 }
 
@@ -91,34 +94,34 @@ TEST_F(LineMemoryTest, KeepsTheOlderPositionIfMuchMoreCertain) {
 }
 
 TEST_F(LineMemoryTest, KeepsObservationsOfKnownLinesOnly) {
-  memory_.KeepView(3, ViewAt(10));
+  memory_.KeepObservation(3, SeenAt(10));
   EXPECT_EQ(memory_.Find(3), nullptr);
   memory_.Keep(3, LineAlongX(1, 2));
-  memory_.KeepView(3, ViewAt(20));
+  memory_.KeepObservation(3, SeenAt(20));
   EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({20}));
 }
 
 TEST_F(LineMemoryTest, KeepsTheFirstAndTheNewestObservation) {
-  static_assert(kMaxAnchorViews == 4);
+  static_assert(kMaxAnchorObservations == 4);
   memory_.Keep(3, LineAlongX(1, 2));
-  for (const int64_t t_ns : {10, 20, 30, 40}) memory_.KeepView(3, ViewAt(t_ns));
+  for (const int64_t t_ns : {10, 20, 30, 40}) memory_.KeepObservation(3, SeenAt(t_ns));
   EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10, 20, 30, 40}));
-  for (const int64_t t_ns : {50, 60}) memory_.KeepView(3, ViewAt(t_ns));
+  for (const int64_t t_ns : {50, 60}) memory_.KeepObservation(3, SeenAt(t_ns));
   EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10, 40, 50, 60}));
 }
 
 TEST_F(LineMemoryTest, UpdateOfALineKeepsItsObservations) {
   memory_.Keep(3, LineAlongX(1, 2));
-  memory_.KeepView(3, ViewAt(10));
+  memory_.KeepObservation(3, SeenAt(10));
   memory_.Keep(3, LineAlongX(1, 3));
   EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10}));
 }
 
 TEST_F(LineMemoryTest, JoinedLinesAreOne) {
   memory_.Keep(3, LineAlongX(1, 2));
-  memory_.KeepView(3, ViewAt(10));
+  memory_.KeepObservation(3, SeenAt(10));
   memory_.Keep(7, LineAlongX(2, 4));
-  memory_.KeepView(7, ViewAt(20));
+  memory_.KeepObservation(7, SeenAt(20));
   memory_.Join(7, 3);
   EXPECT_EQ(memory_.Find(7), nullptr);
   ExpectSeen(3, {1, 0, 0}, {4, 0, 0});
@@ -127,7 +130,7 @@ TEST_F(LineMemoryTest, JoinedLinesAreOne) {
 
 TEST_F(LineMemoryTest, JoinAddsMissingObservations) {
   memory_.Keep(7, LineAlongX(2, 4));
-  memory_.KeepView(7, ViewAt(20));
+  memory_.KeepObservation(7, SeenAt(20));
   memory_.Join(7, 3);
   ExpectSeen(3, {2, 0, 0}, {4, 0, 0});
   EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({20}));
@@ -144,7 +147,7 @@ TEST_F(LineMemoryTest, JoinOfAnUnknownLineChangesNothing) {
 TEST_F(LineMemoryTest, RemovesObservationsOfARemovedAnchor) {
   for (const int64_t id : {3, 7}) {
     memory_.Keep(id, LineAlongX(1, 2));
-    for (const int64_t t_ns : {10, 20}) memory_.KeepView(id, ViewAt(t_ns));
+    for (const int64_t t_ns : {10, 20}) memory_.KeepObservation(id, SeenAt(t_ns));
   }
   memory_.RemoveAnchor(10);
   memory_.RemoveAnchor(99);

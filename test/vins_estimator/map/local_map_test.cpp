@@ -51,14 +51,18 @@ class LocalMapTest : public ::testing::Test {
     for (const WindowFrame& frame : map_.window.frames) frames.insert(frame.state.t_ns);
     for (const AnchorFrame& anchor : map_.window.anchors) anchors.insert(anchor.state.t_ns);
     for (const auto& [id, point] : map_.points.landmarks()) {
-      for (const PointView& view : point.views) EXPECT_EQ(frames.count(view.t_ns), 1u);
+      for (const PointLandmark::Observation& observation : point.observations)
+        EXPECT_EQ(frames.count(observation.t_ns), 1u);
     }
     for (const auto& [id, line] : map_.lines.landmarks()) {
-      for (const LineView& view : line.views) EXPECT_EQ(frames.count(view.t_ns), 1u);
-      for (const LineView& view : line.anchor_views) EXPECT_EQ(anchors.count(view.t_ns), 1u);
+      for (const LineLandmark::Observation& observation : line.observations)
+        EXPECT_EQ(frames.count(observation.t_ns), 1u);
+      for (const LineLandmark::Observation& observation : line.anchor_observations)
+        EXPECT_EQ(anchors.count(observation.t_ns), 1u);
     }
     for (const auto& [id, line] : map_.memory.lines()) {
-      for (const LineView& view : line.anchor_views) EXPECT_EQ(anchors.count(view.t_ns), 1u);
+      for (const LineLandmark::Observation& observation : line.anchor_observations)
+        EXPECT_EQ(anchors.count(observation.t_ns), 1u);
     }
   }
 
@@ -72,7 +76,7 @@ TEST_F(LocalMapTest, DropsTheSecondNewestFrameWithItsObservations) {
   map_.DropSecondNewest();
   EXPECT_EQ(map_.window.frames.size(), 3u);
   EXPECT_EQ(map_.window.newest().state.t_ns, Stamp(3));
-  EXPECT_EQ(Line(kLine).views.size(), 3u);
+  EXPECT_EQ(Line(kLine).observations.size(), 3u);
   ExpectInStep();
 }
 
@@ -117,24 +121,26 @@ TEST_F(LocalMapTest, RemovingAnAnchorRemovesItsObservations) {
   for (int i = 0; i < 4; ++i) AddFrame(i);
   Triangulate();
   map_.SlideOldest(/*stays_as_anchor=*/true);
-  ASSERT_EQ(map_.memory.Find(kLine)->anchor_views.size(), 1u);
-  map_.lines.landmarks().at(kLine).anchor_views = map_.memory.Find(kLine)->anchor_views;
+  ASSERT_EQ(map_.memory.Find(kLine)->anchor_observations.size(), 1u);
+  map_.lines.landmarks().at(kLine).anchor_observations =
+      map_.memory.Find(kLine)->anchor_observations;
   ExpectInStep();
   map_.RemoveAnchor(Stamp(0));
   EXPECT_TRUE(map_.window.anchors.empty());
-  EXPECT_TRUE(map_.memory.Find(kLine)->anchor_views.empty());
-  EXPECT_TRUE(Line(kLine).anchor_views.empty());
+  EXPECT_TRUE(map_.memory.Find(kLine)->anchor_observations.empty());
+  EXPECT_TRUE(Line(kLine).anchor_observations.empty());
 }
 
 TEST_F(LocalMapTest, AbsorbedLineContinuesUnderTheOlderId) {
   for (int i = 0; i < 2; ++i) AddFrame(i);
   for (int i = 2; i < 4; ++i) AddFrame(i, /*with_landmarks=*/true, /*line_id=*/9);
   LineLandmark joint = Line(kLine);
-  joint.views.insert(joint.views.end(), Line(9).views.begin(), Line(9).views.end());
+  joint.observations.insert(joint.observations.end(), Line(9).observations.begin(),
+                            Line(9).observations.end());
   map_.AbsorbLine(9, joint);
   EXPECT_EQ(map_.lines.landmarks().count(9), 0u);
   AddFrame(4, /*with_landmarks=*/true, /*line_id=*/9);
-  EXPECT_EQ(Line(kLine).views.size(), 5u);
+  EXPECT_EQ(Line(kLine).observations.size(), 5u);
 }
 
 TEST_F(LocalMapTest, RecognizedLineContinuesUnderItsOldId) {
@@ -146,10 +152,10 @@ TEST_F(LocalMapTest, RecognizedLineContinuesUnderItsOldId) {
   map_.ReviveLine(9, kLine);
   EXPECT_EQ(map_.lines.landmarks().count(9), 0u);
   EXPECT_EQ(Line(kLine).id, kLine);
-  ASSERT_EQ(Line(kLine).anchor_views.size(), 1u);
-  EXPECT_EQ(Line(kLine).anchor_views[0].t_ns, Stamp(0));
+  ASSERT_EQ(Line(kLine).anchor_observations.size(), 1u);
+  EXPECT_EQ(Line(kLine).anchor_observations[0].t_ns, Stamp(0));
   AddFrame(6, /*with_landmarks=*/true, /*line_id=*/9);
-  EXPECT_EQ(Line(kLine).views.size(), 2u);
+  EXPECT_EQ(Line(kLine).observations.size(), 2u);
   ExpectInStep();
 }
 

@@ -50,74 +50,80 @@ TEST_F(RecalibrationTest, ReturnsTheLargestMotion) {
 TEST_F(RecalibrationTest, MovesAllRaysOfAnImage) {
   FrameMeasurement measurement;
   measurement.points.points = {{1, {0.1, 0.2}, {300, 200}, {1, 0}}};
-  recalibration_.Move(&measurement);  // without lines
+  recalibration_.Move(0, &measurement);  // without lines
   const PointObservation& point = measurement.points.points[0];
   EXPECT_MATRIX_NEAR(point.xy, Expected({0.1, 0.2}), 1e-12);
   EXPECT_EQ(point.uv_px, Vector2d(300, 200));
   EXPECT_NE(point.velocity, Vector2d(1, 0));
 
   measurement.lines = LineFrame{0, {{1, {0.1, 0.2}, {-0.3, 0.4}}}};
-  recalibration_.Move(&measurement);
+  recalibration_.Move(0, &measurement);
   EXPECT_MATRIX_NEAR(measurement.lines->lines[0].start, Expected({0.1, 0.2}), 1e-12);
   EXPECT_MATRIX_NEAR(measurement.lines->lines[0].end, Expected({-0.3, 0.4}), 1e-12);
 }
 
 TEST_F(RecalibrationTest, MovesAllRaysOfAMap) {
-  const LineView view{7, {{0.1, 0.2}, {-0.3, 0.4}}};
+  const LineLandmark::Observation observation{{7, 0}, {{0.1, 0.2}, {-0.3, 0.4}}};
   LocalMap map(LocalMapOptions(0.001, /*remember_lines=*/true));
   PointLandmark& point = map.points.landmarks()[1];
-  point.views.resize(2);
-  point.views[1].bearing.xy = {0.1, 0.2};
+  point.observations.resize(2);
+  point.observations[1].bearing.xy = {0.1, 0.2};
   LineLandmark& line = map.lines.landmarks()[2];
-  line.views = line.anchor_views = {view};
+  line.observations = line.anchor_observations = {observation};
   map.memory.Keep(3, SeenLine());
-  map.memory.KeepView(3, view);
+  map.memory.KeepObservation(3, observation);
 
-  recalibration_.Move(&map);
-  EXPECT_MATRIX_NEAR(point.views[0].bearing.xy, Expected({0, 0}), 1e-12);
-  EXPECT_MATRIX_NEAR(point.views[1].bearing.xy, Expected({0.1, 0.2}), 1e-12);
-  for (const LineView& moved :
-       {line.views[0], line.anchor_views[0], map.memory.Find(3)->anchor_views[0]}) {
+  recalibration_.Move(0, &map);
+  EXPECT_MATRIX_NEAR(point.observations[0].bearing.xy, Expected({0, 0}), 1e-12);
+  EXPECT_MATRIX_NEAR(point.observations[1].bearing.xy, Expected({0.1, 0.2}), 1e-12);
+  for (const LineLandmark::Observation& moved : {line.observations[0], line.anchor_observations[0],
+                                                 map.memory.Find(3)->anchor_observations[0]}) {
     EXPECT_MATRIX_NEAR(moved.segment.start, Expected({0.1, 0.2}), 1e-12);
     EXPECT_MATRIX_NEAR(moved.segment.end, Expected({-0.3, 0.4}), 1e-12);
   }
 }
 
-TEST_F(RecalibrationTest, MovesTheRaysOfTheSecondCameraAlone) {
+TEST_F(RecalibrationTest, MovesTheRaysOfOneCameraAlone) {
   FrameMeasurement measurement;
   measurement.points.points.resize(2);
-  measurement.points.points[0].right = Vector2d(0.1, 0.2);
-  measurement.lines = LineFrame{0, {{1, {0.1, 0.2}, {-0.3, 0.4}}, {2, {}, {}}}};
-  measurement.lines->lines[0].right = RightSegment{{0.1, 0.2}, {-0.3, 0.4}, {0.001, 0.002}};
-  recalibration_.MoveRight(&measurement);
-  EXPECT_EQ(measurement.points.points[0].xy, Vector2d(0, 0));
-  EXPECT_MATRIX_NEAR(*measurement.points.points[0].right, Expected({0.1, 0.2}), 1e-12);
-  const LineObservation& line = measurement.lines->lines[0];
-  EXPECT_EQ(line.start, Vector2d(0.1, 0.2));
-  EXPECT_MATRIX_NEAR(line.right->start, Expected({0.1, 0.2}), 1e-12);
-  EXPECT_MATRIX_NEAR(line.right->end, Expected({-0.3, 0.4}), 1e-12);
+  measurement.lines = LineFrame{0, {{1, {0.1, 0.2}, {-0.3, 0.4}}, {1, {0.1, 0.2}, {-0.3, 0.4}}}};
+  measurement.points.points[1].camera = measurement.lines->lines[1].camera = 1;
+  measurement.points.points[0].xy = measurement.points.points[1].xy = Vector2d(0.1, 0.2);
+  recalibration_.Move(1, &measurement);
+  EXPECT_EQ(measurement.points.points[0].xy, Vector2d(0.1, 0.2));
+  EXPECT_MATRIX_NEAR(measurement.points.points[1].xy, Expected({0.1, 0.2}), 1e-12);
+  EXPECT_EQ(measurement.lines->lines[0].end, Vector2d(-0.3, 0.4));
+  EXPECT_MATRIX_NEAR(measurement.lines->lines[1].start, Expected({0.1, 0.2}), 1e-12);
+  EXPECT_MATRIX_NEAR(measurement.lines->lines[1].end, Expected({-0.3, 0.4}), 1e-12);
 }
 
-TEST_F(RecalibrationTest, FollowsTheIntrinsicsOfTheSecondCamera) {
+TEST_F(RecalibrationTest, FollowsTheIntrinsicsOfEachCamera) {
   LocalMap map(LocalMapOptions(0.001, /*remember_lines=*/true));
   PointLandmark& point = map.points.landmarks()[1];
-  point.views.resize(1);
-  point.views[0].right = Vector2d(0.1, 0.2);
+  point.observations.resize(2);
   LineLandmark& line = map.lines.landmarks()[2];
-  line.views = {{7, {{0.1, 0.2}, {-0.3, 0.4}}, RightSegment{{0.1, 0.2}, {-0.3, 0.4}, {}}}};
+  line.observations.resize(2);
+  for (int camera = 0; camera < 2; ++camera) {
+    point.observations[camera].camera = line.observations[camera].camera = camera;
+    point.observations[camera].bearing.xy = {0.1, 0.2};
+    line.observations[camera].segment = {{0.1, 0.2}, {-0.3, 0.4}};
+  }
   SensorConfig sensor = simulator::DefaultStereoSensors();
   sensor.cameras[1].parameters = sensor.cameras[0].parameters;
-  SlidingWindow& window = map.window;
-  window.intrinsics = window.ray_intrinsics = window.right_ray_intrinsics =
-      sensor.cameras[0].parameters.intrinsics();
-  window.right_intrinsics = Other().intrinsics();
+  std::vector<WindowCamera>& cameras = map.window.cameras;
+  cameras.resize(2);
+  for (WindowCamera& camera : cameras) {
+    camera.intrinsics = camera.ray_intrinsics = sensor.cameras[0].parameters.intrinsics();
+  }
+  cameras[1].intrinsics = Other().intrinsics();
   FollowIntrinsics(sensor, /*max_error=*/1, &map);
-  EXPECT_EQ(*point.views[0].right, Vector2d(0.1, 0.2));
+  EXPECT_EQ(point.observations[1].bearing.xy, Vector2d(0.1, 0.2));
   FollowIntrinsics(sensor, /*max_error=*/1e-4, &map);
-  EXPECT_EQ(map.window.right_ray_intrinsics, map.window.right_intrinsics);
-  EXPECT_MATRIX_NEAR(*point.views[0].right, Expected({0.1, 0.2}), 1e-12);
-  EXPECT_MATRIX_NEAR(line.views[0].right->end, Expected({-0.3, 0.4}), 1e-12);
-  EXPECT_EQ(line.views[0].segment.end, Vector2d(-0.3, 0.4));
+  EXPECT_EQ(cameras[1].ray_intrinsics, cameras[1].intrinsics);
+  EXPECT_MATRIX_NEAR(point.observations[1].bearing.xy, Expected({0.1, 0.2}), 1e-12);
+  EXPECT_MATRIX_NEAR(line.observations[1].segment.end, Expected({-0.3, 0.4}), 1e-12);
+  EXPECT_EQ(point.observations[0].bearing.xy, Vector2d(0.1, 0.2));
+  EXPECT_EQ(line.observations[0].segment.end, Vector2d(-0.3, 0.4));
 }
 
 }  // namespace

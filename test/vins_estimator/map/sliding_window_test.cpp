@@ -55,17 +55,22 @@ TEST(SlidingWindow, ErrorNamesTheMissingFrame) {
   SlidingWindow window = MakeWindow(3);
   EXPECT_THROW(window.FrameAt(7), std::logic_error);
   EXPECT_THROW(window.AnchorAt(kInterval), std::logic_error);
-  EXPECT_EQ(testing::MessageOf([&] { window.T_W_C(7); }), "no frame with stamp 7 in the window");
+  EXPECT_EQ(testing::MessageOf([&] {
+              window.T_W_C({7, 0});
+            }),
+            "no frame with stamp 7 in the window");
 }
 
 TEST(SlidingWindow, CameraPoseIsBodyPoseTimesExtrinsics) {
   SlidingWindow window = MakeWindow(1);
+  window.cameras.resize(2);
   const Rigid3d T_B_C(SO3Exp({0.1, 0.2, 0.3}), {1, 2, 3}), T_W_B(SO3Exp({0.3, -0.2, 1}), {4, 5, 6});
-  window.SetExtrinsic(T_B_C);
+  window.cameras[1].SetExtrinsics(T_B_C);
   window.frames[0].state.SetPose(T_W_B);
-  EXPECT_MATRIX_NEAR(window.T_B_C().translation, T_B_C.translation, 1e-15);
+  EXPECT_MATRIX_NEAR(window.cameras[1].T_B_C().translation, T_B_C.translation, 1e-15);
   const Vector3d p_C(0.1, 0.2, 3);
-  EXPECT_MATRIX_NEAR(window.T_W_C(window.frames[0]) * p_C, T_W_B * (T_B_C * p_C), 1e-12);
+  EXPECT_MATRIX_NEAR(window.T_W_C({window.frames[0].state.t_ns, 1}) * p_C, T_W_B * (T_B_C * p_C),
+                     1e-12);
 }
 
 TEST(SlidingWindow, RemovingTheSecondNewestJoinsTheImu) {

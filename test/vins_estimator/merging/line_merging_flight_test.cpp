@@ -64,7 +64,7 @@ simulator::FeatureDataset Fly(uint64_t seed, double duration) {
 void FlyThrough(const simulator::FeatureDataset& data,
                 const std::function<void(LineWindow*)>& at_frame) {
   LineWindow window;
-  window.map().window.SetExtrinsic(simulator::DefaultSensors().cameras[0].T_B_C);
+  window.map().window.cameras[0].SetExtrinsics(simulator::DefaultSensors().cameras[0].T_B_C);
   for (size_t i = 0; i < data.lines.size(); ++i) {
     window.Slide(/*keep_second_newest=*/i % 4 == 0, kWindowSize);
     window.AddFrame(data.truth[i], data.lines[i]);

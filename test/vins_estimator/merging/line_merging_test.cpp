@@ -27,17 +27,17 @@ TEST(LineMerging, JoinsTheTracksOfOneLine) {
   EXPECT_EQ(counts.merging.merged, 1);
   ASSERT_EQ(window.map().lines.landmarks().size(), 1u);
   const LineLandmark& line = window.map().lines.landmarks().at(4);
-  EXPECT_EQ(line.views.size(), 10u);  // including later ones of the new track
+  EXPECT_EQ(line.observations.size(), 10u);  // including later ones of the new track
   const PluckerLine line_W = LineInWorld(line, window.map().window);
   EXPECT_MATRIX_NEAR(Vector3d(line_W.direction.normalized().cwiseAbs()),
                      Vector3d(2, 0.1, 0).normalized(), 1e-6);
 }
 
-std::vector<LineView> ViewsAt(const std::vector<int64_t>& stamps) {
-  std::vector<LineView> views;
-  views.reserve(stamps.size());
-  for (const int64_t t_ns : stamps) views.push_back({t_ns, {}});
-  return views;
+std::vector<LineLandmark::Observation> SeenAt(const std::vector<int64_t>& stamps) {
+  std::vector<LineLandmark::Observation> observations;
+  observations.reserve(stamps.size());
+  for (const int64_t t_ns : stamps) observations.push_back({{t_ns, 0}, {}});
+  return observations;
 }
 
 TEST(LineMerging, KeepsAnchorObservationsOfBoth) {
@@ -47,13 +47,15 @@ TEST(LineMerging, KeepsAnchorObservationsOfBoth) {
   }
   auto& lines = window.map().lines.landmarks();
   ASSERT_EQ(lines.size(), 2u);
-  lines.at(4).anchor_views = ViewsAt({1, 4});
-  lines.at(9).anchor_views = ViewsAt({2, 3, 5});
+  lines.at(4).anchor_observations = SeenAt({1, 4});
+  lines.at(9).anchor_observations = SeenAt({2, 3, 5});
   const auto merged =
       MergeLines(LineWindow::Limits(), Eigen::Quaterniond::Identity(), &window.map());
   ASSERT_EQ(merged.counts.merged, 1);
   std::vector<int64_t> stamps;
-  for (const LineView& view : lines.at(4).anchor_views) stamps.push_back(view.t_ns);
+  for (const LineLandmark::Observation& observation : lines.at(4).anchor_observations) {
+    stamps.push_back(observation.t_ns);
+  }
   EXPECT_EQ(stamps, (std::vector<int64_t>{1, 3, 4, 5}));  // the first one and the newest
 }
 

@@ -155,10 +155,10 @@ TEST_F(CeresSolverTest, DoesNotMoveConstants) {
   options_.estimate_extrinsic = options_.estimate_td = false;
   Build();
   Disturb(0.003);
-  const auto extrinsic = estimate_.map.window.extrinsic;
+  const auto extrinsic = estimate_.map.window.cameras[0].extrinsics;
   const double td = estimate_.map.window.td;
   EXPECT_TRUE(SolveByCeres(SolverOptions(), problem()).solved);
-  EXPECT_EQ(estimate_.map.window.extrinsic, extrinsic);
+  EXPECT_EQ(estimate_.map.window.cameras[0].extrinsics, extrinsic);
   EXPECT_EQ(estimate_.map.window.td, td);
 }
 

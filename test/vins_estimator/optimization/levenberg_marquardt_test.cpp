@@ -34,7 +34,7 @@ class LevenbergMarquardtTest : public ::testing::Test {
     auto& frames = simulated_.window.frames;
     SlidingWindow& window = simulated_.window;
     const int extrinsic =
-        problem_.AddVariable({BlockKind::kExtrinsic, 0}, window.extrinsic.data(), true);
+        problem_.AddVariable({BlockKind::kExtrinsic, 0}, window.cameras[0].extrinsics.data(), true);
     const int td = problem_.AddVariable({BlockKind::kTimeOffset, 0}, &window.td, true);
     for (WindowFrame& frame : frames) {
       FrameState& state = frame.state;
@@ -63,12 +63,15 @@ class LevenbergMarquardtTest : public ::testing::Test {
     const BlockId id{BlockKind::kPoint, landmark->id};
     const int index = problem_.AddLandmark(id, landmark->coordinates.data());
     const int point = problem_.Find(id);
-    const PointView& host = landmark->host();
-    problem_.AddLandmarkTerm(index, PointHostFactor(host.bearing, kWeight), &loss_, {td, point});
-    for (size_t i = 1; i < landmark->views.size(); ++i) {
-      const PointView& view = landmark->views[i];
-      problem_.AddLandmarkTerm(index, PointFactor(view.bearing, kWeight), &loss_,
-                               {PoseAt(host.t_ns), PoseAt(view.t_ns), extrinsic, td, point});
+    const PointLandmark::Observation& host = landmark->host();
+    const ChainKind of_host{/*same_frame=*/true, /*same_camera=*/true};
+    problem_.AddLandmarkTerm(index, PointFactor(of_host, host.bearing, kWeight), &loss_,
+                             {td, point});
+    const ChainKind of_other{/*same_frame=*/false, /*same_camera=*/true};
+    for (size_t i = 1; i < landmark->observations.size(); ++i) {
+      const PointLandmark::Observation& other = landmark->observations[i];
+      problem_.AddLandmarkTerm(index, PointFactor(of_other, other.bearing, kWeight), &loss_,
+                               {extrinsic, PoseAt(host.t_ns), PoseAt(other.t_ns), td, point});
     }
   }
 

@@ -113,11 +113,13 @@ TEST(RunSummary, HasTheLastCalibration) {
   RunSummary summary;
   summary.Add(Pose(0, 0), {});
   EstimatorOutput refined = Pose(1, 0);
-  refined.calibration.T_B_C = {Eigen::Quaterniond(0, 1, 0, 0), {0.1, 0.2, 0.3}};
+  CameraCalibration& camera = refined.calibration.cameras.front();
+  camera.T_B_C = {Eigen::Quaterniond(0, 1, 0, 0), {0.1, 0.2, 0.3}};
   refined.calibration.td = 0.004;
   Intrinsics intrinsics;
   intrinsics << 460, 461, 370, 240, -0.3, 0.1, 0.01, 0.02;
-  refined.calibration.camera = refined.calibration.camera.With(intrinsics);
+  camera.parameters = camera.parameters.With(intrinsics);
+  refined.calibration.cameras.push_back(camera);
   summary.Add(refined, {});
   summary.Add(NoPose(2, "lost"), {});
   const auto calibration = summary.ToJson({})["calibration"];
@@ -130,6 +132,7 @@ TEST(RunSummary, HasTheLastCalibration) {
   EXPECT_EQ(calibration["distortion"].get<std::vector<double>>(),
             (std::vector<double>{-0.3, 0.1, 0.01, 0.02}));
   EXPECT_EQ(calibration["td_s"], 0.004);
+  EXPECT_EQ(calibration["camera1"]["p_B_C_m"], calibration["p_B_C_m"]);
   EXPECT_TRUE(RunSummary().ToJson({})["calibration"].is_null());
 }
 

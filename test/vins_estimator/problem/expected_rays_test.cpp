@@ -26,10 +26,10 @@ SlidingWindow TwoFrames() {
 // A point 4 m from the first frame.
 PointLandmark PointOfBoth() {
   PointLandmark landmark;
-  landmark.views.resize(2);
-  landmark.views[0].t_ns = 1;
-  landmark.views[1].t_ns = 2;
-  landmark.views[1].bearing.xy = {0.3, 0.4};
+  landmark.observations.resize(2);
+  landmark.observations[0].t_ns = 1;
+  landmark.observations[1].t_ns = 2;
+  landmark.observations[1].bearing.xy = {0.3, 0.4};
   landmark.coordinates = {0.1, 0.2, 0.25};
   return landmark;
 }
@@ -37,8 +37,9 @@ PointLandmark PointOfBoth() {
 TEST(ExpectedRay, IsTheProjectionOfTheLandmark) {
   const PointLandmark landmark = PointOfBoth();
   const SlidingWindow window = TwoFrames();
-  EXPECT_MATRIX_NEAR(ExpectedRay(landmark, landmark.views[0], window), Vector2d(0.1, 0.2), 1e-12);
-  EXPECT_MATRIX_NEAR(ExpectedRay(landmark, landmark.views[1], window), Vector2d(-0.025, 0.2),
+  EXPECT_MATRIX_NEAR(ExpectedRay(landmark, landmark.observations[0], window), Vector2d(0.1, 0.2),
+                     1e-12);
+  EXPECT_MATRIX_NEAR(ExpectedRay(landmark, landmark.observations[1], window), Vector2d(-0.025, 0.2),
                      1e-12);
 }
 
@@ -46,47 +47,36 @@ TEST(ExpectedRay, IsTheObservedOneBehindTheCamera) {
   const PointLandmark landmark = PointOfBoth();
   SlidingWindow window = TwoFrames();
   window.frames[1].state.position() = Vector3d(0, 0, 5);
-  EXPECT_EQ(ExpectedRay(landmark, landmark.views[1], window), Vector2d(0.3, 0.4));
+  EXPECT_EQ(ExpectedRay(landmark, landmark.observations[1], window), Vector2d(0.3, 0.4));
 }
 
 // The second camera is at the place of frame 2.
-TEST(ExpectedRightRay, IsTheProjectionIntoTheSecondCamera) {
+TEST(ExpectedRay, IsInTheCameraThatObserved) {
   PointLandmark landmark = PointOfBoth();
-  landmark.views[0].right = Vector2d(0.3, 0.4);
+  landmark.observations[1].t_ns = 1;
+  landmark.observations[1].camera = 1;
   SlidingWindow window = TwoFrames();
-  window.SetMounting({Eigen::Quaterniond::Identity(), Vector3d(0.5, 0, 0)});
-  EXPECT_MATRIX_NEAR(ExpectedRightRay(landmark, landmark.views[0], window), Vector2d(-0.025, 0.2),
+  window.cameras.resize(2);
+  window.cameras[1].SetExtrinsics({Eigen::Quaterniond::Identity(), Vector3d(0.5, 0, 0)});
+  EXPECT_MATRIX_NEAR(ExpectedRay(landmark, landmark.observations[1], window), Vector2d(-0.025, 0.2),
                      1e-12);
-  window.SetMounting({Eigen::Quaterniond::Identity(), Vector3d(0, 0, 5)});
-  EXPECT_EQ(ExpectedRightRay(landmark, landmark.views[0], window), Vector2d(0.3, 0.4));
-}
-
-TEST(ExpectedRightEnds, AreNearestToTheObservedOnes) {
-  LineLandmark landmark;
-  landmark.views = {{1, {}, RightSegment{{-0.1, 0.3}, {0.2, 0.52}}}};
-  landmark.coordinates = ToOrthonormal(LineThrough({-1, 1, 4}, {1, 1, 4}));
-  SlidingWindow window = TwoFrames();
-  window.SetMounting({Eigen::Quaterniond::Identity(), Vector3d(0, -0.8, 0)});  // line at y = 0.45
-  const LineSegmentView ends = ExpectedRightEnds(landmark, landmark.views[0], window);
-  EXPECT_MATRIX_NEAR(ends.start, Vector2d(-0.1, 0.45), 1e-12);
-  EXPECT_MATRIX_NEAR(ends.end, Vector2d(0.2, 0.45), 1e-12);
 }
 
 TEST(ExpectedEnds, AreNearestToTheObservedOnes) {
   LineLandmark landmark;
-  landmark.views = {{1, {}}, {2, {{-0.1, 0.3}, {0.2, 0.22}}}};
+  landmark.observations = {{{1, 0}, {}}, {{2, 0}, {{-0.1, 0.3}, {0.2, 0.22}}}};
   landmark.coordinates = ToOrthonormal(LineThrough({-1, 1, 4}, {1, 1, 4}));  // at y = 0.25
-  const LineSegmentView ends = ExpectedEnds(landmark, landmark.views[1], TwoFrames());
+  const LineSegmentView ends = ExpectedEnds(landmark, landmark.observations[1], TwoFrames());
   EXPECT_MATRIX_NEAR(ends.start, Vector2d(-0.1, 0.25), 1e-12);
   EXPECT_MATRIX_NEAR(ends.end, Vector2d(0.2, 0.25), 1e-12);
 }
 
 TEST(ExpectedEnds, AreTheObservedOnesWithoutAnImage) {
   LineLandmark landmark;
-  landmark.views = {{1, {}}, {2, {{-0.1, 0.3}, {0.2, 0.22}}}};
+  landmark.observations = {{{1, 0}, {}}, {{2, 0}, {{-0.1, 0.3}, {0.2, 0.22}}}};
   landmark.coordinates =
       ToOrthonormal(LineThrough({0.5, 1, 0}, {0.5, 2, 0}));  // through the camera of frame 2
-  const LineSegmentView ends = ExpectedEnds(landmark, landmark.views[1], TwoFrames());
+  const LineSegmentView ends = ExpectedEnds(landmark, landmark.observations[1], TwoFrames());
   EXPECT_EQ(ends.start, Vector2d(-0.1, 0.3));
   EXPECT_EQ(ends.end, Vector2d(0.2, 0.22));
 }

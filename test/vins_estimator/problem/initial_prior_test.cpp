@@ -39,7 +39,7 @@ TEST(InitialPrior, IsTheStatedUncertaintyOfTheFirstState) {
   ASSERT_EQ(all_covariance.rows(), 30);
   EXPECT_NEAR(std::sqrt(all_covariance(20, 20)), uncertainty.extrinsic_rotation, 1e-9);
   EXPECT_NEAR(std::sqrt(all_covariance(21, 21)), uncertainty.td, 1e-9);
-  const Intrinsics& intrinsics = simulated.window.intrinsics;
+  const Intrinsics& intrinsics = simulated.window.cameras[0].intrinsics;
   const IntrinsicsDeviation& deviation = uncertainty.intrinsics;
   EXPECT_NEAR(std::sqrt(all_covariance(22, 22)), deviation.focal_length * intrinsics[0], 1e-9);
   EXPECT_NEAR(std::sqrt(all_covariance(23, 23)), deviation.focal_length * intrinsics[1], 1e-9);
@@ -84,29 +84,13 @@ TEST(InitialPrior, CorrelatesTiltAndAccelerometerBiasAtStandstill) {
   EXPECT_NEAR(std::sqrt(variance), 0.02, 1e-6);
 }
 
-TEST(InitialPrior, HoldsTheSecondCamera) {
+TEST(InitialPrior, HoldsTheIntrinsicsOfEachCamera) {
   SimulatedWindow simulated = testing::SimulateWindow(2);
-  simulated.window.SetMounting({Eigen::Quaterniond::Identity(), {0.1, 0, 0}});
-  ProblemOptions options = testing::OnePixelOptions();
-  options.estimate_mounting = true;
-  const InitialUncertainty uncertainty;
-  const MatrixXd covariance =
-      InitialPrior(uncertainty, options, simulated.window).quadratic().H.inverse();
-  ASSERT_EQ(covariance.rows(), 21);
-  EXPECT_NEAR(std::sqrt(covariance(16, 16)), uncertainty.mounting, 1e-9);
-  EXPECT_NEAR(std::sqrt(covariance(17, 17)), uncertainty.baseline, 1e-9);
-  EXPECT_NEAR(std::sqrt(covariance(20, 20)), uncertainty.mounting, 1e-9);
-}
-
-TEST(InitialPrior, HoldsTheIntrinsicsOfTheSecondCamera) {
-  SimulatedWindow simulated = testing::SimulateWindow(2);
-  simulated.window.right_intrinsics = simulated.window.intrinsics;
+  simulated.window.cameras.push_back(simulated.window.cameras[0]);
   ProblemOptions options = testing::OnePixelOptions();
   options.estimate_intrinsics = true;
-  options.right_camera = options.camera;
-  const InitialUncertainty uncertainty;
   const MatrixXd covariance =
-      InitialPrior(uncertainty, options, simulated.window).quadratic().H.inverse();
+      InitialPrior(InitialUncertainty(), options, simulated.window).quadratic().H.inverse();
   ASSERT_EQ(covariance.rows(), 15 + 2 * kIntrinsicsSize);
   EXPECT_MATRIX_NEAR(covariance.diagonal().tail<kIntrinsicsSize>(),
                      covariance.diagonal().segment<kIntrinsicsSize>(15), 1e-12);

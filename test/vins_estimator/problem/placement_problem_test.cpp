@@ -38,8 +38,8 @@ TEST(PlacementProblem, TheStatesAfterAFrameAloneAreFree) {
     size_t seen = 0;
     const auto count = [&](const auto& landmarks) {
       for (const auto& [id, landmark] : landmarks) {
-        if (!IsOptimized(landmark) || landmark.views[1].t_ns > known_ns) continue;
-        seen += std::count_if(landmark.views.begin(), landmark.views.end(),
+        if (!IsOptimized(landmark) || landmark.observations[1].t_ns > known_ns) continue;
+        seen += std::count_if(landmark.observations.begin(), landmark.observations.end(),
                               [&](const auto& view) { return view.t_ns > known_ns; });
       }
     };

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/default_sensors.h"
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_window.h"
 #include "vins_estimator/least_squares/normal_equations.h"
@@ -29,9 +30,10 @@ class ProblemBuilderTest : public ::testing::Test {
 
   template <typename Landmark>
   static Landmark* LongestTrackOf(std::map<int64_t, Landmark>* landmarks) {
-    const auto longest = std::max_element(
-        landmarks->begin(), landmarks->end(),
-        [](const auto& a, const auto& b) { return a.second.views.size() < b.second.views.size(); });
+    const auto longest =
+        std::max_element(landmarks->begin(), landmarks->end(), [](const auto& a, const auto& b) {
+          return a.second.observations.size() < b.second.observations.size();
+        });
     return &longest->second;
   }
 
@@ -99,7 +101,7 @@ TEST_F(ProblemBuilderTest, StandstillDeviationsHaveALowerBound) {
 
 TEST_F(ProblemBuilderTest, PointHasATermForEveryObservation) {
   PointLandmark* landmark = LongestTrack();
-  ASSERT_EQ(landmark->views.size(), 3u);
+  ASSERT_EQ(landmark->observations.size(), 3u);
   ProblemBuilder builder(options_, &window(), &no_prior_);
   builder.AddPoint(landmark);
   const WindowProblem& problem = builder.problem();
@@ -113,7 +115,7 @@ TEST_F(ProblemBuilderTest, PointHasATermForEveryObservation) {
 
 TEST_F(ProblemBuilderTest, LineHasATermForEveryObservation) {
   LineLandmark* landmark = LongestLineTrack();
-  ASSERT_EQ(landmark->views.size(), 3u);
+  ASSERT_EQ(landmark->observations.size(), 3u);
   ProblemBuilder builder(options_, &window(), &no_prior_);
   builder.AddLine(landmark);
   const WindowProblem& problem = builder.problem();
@@ -133,13 +135,13 @@ TEST_F(ProblemBuilderTest, LineHasATermForEveryObservation) {
 
 TEST_F(ProblemBuilderTest, AnchorObservationsHaveTheirOwnWeight) {
   LineLandmark* landmark = LongestLineTrack();
-  ASSERT_EQ(landmark->views.size(), 3u);
+  ASSERT_EQ(landmark->observations.size(), 3u);
   MoveHost(window(), 1, landmark);
-  landmark->anchor_views = {landmark->views[0]};
-  landmark->views.erase(landmark->views.begin());
+  landmark->anchor_observations = {landmark->observations[0]};
+  landmark->observations.erase(landmark->observations.begin());
   const BlockId anchor_pose{BlockKind::kPose, Stamp(0)};
   window().TurnOldestIntoAnchor();
-  const auto cost_of_views = [&] {
+  const auto cost_of_observations = [&] {
     options_.line_loss_scale = 1e6;  // practically none
     ProblemBuilder builder(options_, &window(), &no_prior_);
     builder.AddLine(landmark);
@@ -147,20 +149,20 @@ TEST_F(ProblemBuilderTest, AnchorObservationsHaveTheirOwnWeight) {
     const auto& terms = problem.landmarks()[0].terms;
     EXPECT_EQ(terms.size(), 3u);
     const ResidualTerm& of_anchor = terms.back();
-    EXPECT_EQ(of_anchor.variables[0], problem.Find({BlockKind::kPose, Stamp(0)}));  // the host
-    EXPECT_EQ(of_anchor.variables[1], problem.Find(anchor_pose));
-    EXPECT_EQ(problem.variables()[of_anchor.variables[1]].values,
+    EXPECT_EQ(of_anchor.variables[1], problem.Find({BlockKind::kPose, Stamp(0)}));  // the host
+    EXPECT_EQ(of_anchor.variables[2], problem.Find(anchor_pose));
+    EXPECT_EQ(problem.variables()[of_anchor.variables[2]].values,
               window().anchors[0].state.pose.data());
     return std::make_pair(EvaluateTermCost(terms[1], problem.variables()),
                           EvaluateTermCost(of_anchor, problem.variables()));
   };
   options_.anchor_weight = 50;
-  const auto [view, anchor_view] = cost_of_views();
+  const auto [observation, in_anchor] = cost_of_observations();
   options_.anchor_weight = 150;
-  const auto [same_view, heavier_anchor_view] = cost_of_views();
-  EXPECT_GT(anchor_view, 0);
-  EXPECT_NEAR(heavier_anchor_view, 9 * anchor_view, 1e-6 * heavier_anchor_view);
-  EXPECT_EQ(same_view, view);
+  const auto [same, in_heavier_anchor] = cost_of_observations();
+  EXPECT_GT(in_anchor, 0);
+  EXPECT_NEAR(in_heavier_anchor, 9 * in_anchor, 1e-6 * in_heavier_anchor);
+  EXPECT_EQ(same, observation);
 }
 
 TEST_F(ProblemBuilderTest, APointAndALineMayHaveTheSameId) {
@@ -242,14 +244,70 @@ TEST_F(ProblemBuilderTest, ConsistentDataCostsLittleAtTheTruth) {
   for (auto& [id, landmark] : simulated_.points.landmarks()) {
     if (!landmark.triangulated) continue;
     builder.AddPoint(&landmark);
-    rows += 2 * static_cast<int>(landmark.views.size());
+    rows += 2 * static_cast<int>(landmark.observations.size());
   }
   for (auto& [id, landmark] : simulated_.lines.landmarks()) {
     if (!landmark.triangulated) continue;
     builder.AddLine(&landmark);
-    rows += 2 * static_cast<int>(landmark.views.size());
+    rows += 2 * static_cast<int>(landmark.observations.size());
   }
   EXPECT_LT(NormalEquations(builder.problem()).Cost(), 0.5 * rows);
+}
+
+// The second camera observes the points of the first one.
+class ProblemOfTwoCameras : public ProblemBuilderTest {
+ protected:
+  ProblemOfTwoCameras() {
+    Config config;
+    config.sensor = simulator::DefaultStereoSensors();
+    options_ = ProblemOptions(config, 460);
+    window().cameras.resize(2);
+    for (int i = 0; i < 2; ++i) {
+      window().cameras[i].SetExtrinsics(config.sensor.cameras[i].T_B_C);
+    }
+  }
+
+  static const Variable* Find(const WindowProblem& problem, const BlockId& id) {
+    const int index = problem.Find(id);
+    return index < 0 ? nullptr : &problem.variables()[index];
+  }
+};
+
+TEST_F(ProblemOfTwoCameras, ExtrinsicsOfTheSecondAreEstimatedAndTiedToTheFirst) {
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddExtrinsicsPriors();
+  const WindowProblem& problem = builder.problem();
+  ASSERT_EQ(problem.terms().size(), 1u);
+  EXPECT_TRUE(Find(problem, {BlockKind::kExtrinsic, 0})->constant);
+  EXPECT_FALSE(Find(problem, {BlockKind::kExtrinsic, 1})->constant);
+  EXPECT_NEAR(NormalEquations(problem).Cost(), 0, 1e-12);
+}
+
+TEST_F(ProblemOfTwoCameras, AnObservationDependsOnTheVariablesThatDoNotCancel) {
+  PointLandmark* point = LongestTrack();
+  ASSERT_GE(point->observations.size(), 2u);
+  point->observations.resize(2);
+  PointLandmark::Observation of_second = point->host();
+  of_second.camera = 1;
+  point->observations.insert(point->observations.begin() + 1, of_second);
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddPoint(point);
+  const auto& terms = builder.problem().landmarks().at(0).terms;
+  ASSERT_EQ(terms.size(), 3u);
+  EXPECT_EQ(terms[0].variable_count, 2) << "host: time offset and point";
+  EXPECT_EQ(terms[1].variable_count, 4) << "host frame: and both extrinsics";
+  EXPECT_EQ(terms[2].variable_count, 5) << "host camera: and two poses, and its extrinsics";
+}
+
+// The other observations stay with the new host and are marginalized later.
+TEST_F(ProblemOfTwoCameras, MarginalizesOnlyTheFirstObservationOfTheNewestFrame) {
+  PointLandmark* point = LongestTrack();
+  PointLandmark::Observation of_second = point->observations.back();
+  of_second.camera = 1;
+  point->observations.push_back(of_second);
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddPoint(point, /*until_ns=*/of_second.t_ns);
+  EXPECT_EQ(builder.problem().landmarks().at(0).terms.size(), point->observations.size() - 1);
 }
 
 }  // namespace

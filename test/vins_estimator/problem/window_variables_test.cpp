@@ -30,9 +30,9 @@ TEST_F(WindowVariablesTest, EachIsAddedOnceWithItsValues) {
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(At(variables.Pose(State(1).t_ns)).values, State(1).pose.data());
     EXPECT_EQ(At(variables.Motion(State(1).t_ns)).values, State(1).motion.data());
-    EXPECT_EQ(At(variables.Extrinsic()).values, window().extrinsic.data());
+    EXPECT_EQ(At(variables.Extrinsics(0)).values, window().cameras[0].extrinsics.data());
     EXPECT_EQ(At(variables.TimeOffset()).values, &window().td);
-    EXPECT_EQ(At(variables.Intrinsics()).values, window().intrinsics.data());
+    EXPECT_EQ(At(variables.Intrinsics(0)).values, window().cameras[0].intrinsics.data());
     EXPECT_EQ(problem_.variables().size(), 5u);
   }
 }

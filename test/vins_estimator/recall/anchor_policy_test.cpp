@@ -65,7 +65,7 @@ TEST_F(AnchorPolicyTest, KeepsNoAnchorForAnUntriangulatedLine) {
 }
 
 TEST_F(AnchorPolicyTest, KeepsNoAnchorForALineOfALaterFrame) {
-  Line().views.erase(Line().views.begin());
+  Line().observations.erase(Line().observations.begin());
   EXPECT_FALSE(Stays());
 }
 
@@ -121,7 +121,7 @@ TEST_F(AnchorPolicyTest, RecordsUseOfAnchorsThatObservedAnOptimizedLine) {
   window_.anchors = {{StateAt(1), Stamp(5)}, {StateAt(2), Stamp(6)}};
   NoteUse(lines_, &window_);
   EXPECT_EQ(window_.anchors[0].last_use_ns, Stamp(5));
-  Line().anchor_views = {LineView{Stamp(1), {}}};
+  Line().anchor_observations = {LineLandmark::Observation{Stamp(1), {}}};
   NoteUse(lines_, &window_);
   EXPECT_EQ(window_.anchors[0].last_use_ns, Stamp(12));
   EXPECT_EQ(window_.anchors[1].last_use_ns, Stamp(6));

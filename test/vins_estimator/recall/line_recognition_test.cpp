@@ -34,10 +34,10 @@ TEST(LineRecognition, RecognizesAReobservedLine) {
   ASSERT_EQ(window.map().lines.landmarks().size(), 1u);
   const LineLandmark& line = window.map().lines.landmarks().at(kGone);
   EXPECT_EQ(line.id, kGone);
-  EXPECT_EQ(line.views.size(), 10u);  // including later ones of the new track
-  ASSERT_EQ(line.anchor_views.size(), 1u);
-  EXPECT_EQ(line.anchor_views[0].t_ns, 100'000'000);
-  const AnchorFrame& anchor = window.map().window.AnchorAt(line.anchor_views[0].t_ns);
+  EXPECT_EQ(line.observations.size(), 10u);  // including later ones of the new track
+  ASSERT_EQ(line.anchor_observations.size(), 1u);
+  EXPECT_EQ(line.anchor_observations[0].t_ns, 100'000'000);
+  const AnchorFrame& anchor = window.map().window.AnchorAt(line.anchor_observations[0].t_ns);
   EXPECT_EQ(anchor.last_use_ns, window.map().window.newest().state.t_ns);
 }
 
@@ -59,7 +59,7 @@ TEST(LineRecognition, DoesNotConfuseLines) {
     ASSERT_EQ(window.map().lines.landmarks().size(), 1u);
     const LineLandmark& line = window.map().lines.landmarks().at(kComeBack);
     EXPECT_TRUE(line.triangulated);
-    EXPECT_TRUE(line.anchor_views.empty());
+    EXPECT_TRUE(line.anchor_observations.empty());
   }
 }
 

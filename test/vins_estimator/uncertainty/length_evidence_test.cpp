@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "vins_estimator/problem/initial_prior.h"
+#include "vins_estimator/problem/problem_options.h"
 
 namespace plm_vins {
 namespace {

@@ -97,17 +97,19 @@ class PlacedCovarianceTest : public ::testing::Test {
   void AddPoints(PointMap* in_keyframe, WindowProblem* problem) {
     SlidingWindow& window = simulated_.window;
     const int extrinsic =
-        problem->AddVariable({BlockKind::kExtrinsic, 0}, window.extrinsic.data(), true);
+        problem->AddVariable({BlockKind::kExtrinsic, 0}, window.cameras[0].extrinsics.data(), true);
     const int td = problem->AddVariable({BlockKind::kTimeOffset, 0}, &window.td, true);
     for (auto& [id, landmark] : in_keyframe->landmarks()) {
       MoveHost(window, kKeyframe, &landmark);
       const int point =
           problem->AddVariable({BlockKind::kPoint, id}, landmark.coordinates.data(), true);
-      for (size_t i = kKeyframe + 1; i < landmark.views.size(); ++i) {
-        const PointView& view = landmark.views[i];
-        problem->AddTerm(PointFactor(view.bearing, options_.point_weight), &loss_,
-                         {AddPose(state(kKeyframe).t_ns, problem), AddPose(view.t_ns, problem),
-                          extrinsic, td, point});
+      for (size_t i = kKeyframe + 1; i < landmark.observations.size(); ++i) {
+        const PointLandmark::Observation& observation = landmark.observations[i];
+        const ChainKind of_other{/*same_frame=*/false, /*same_camera=*/true};
+        problem->AddTerm(
+            PointFactor(of_other, observation.bearing, options_.cameras[0].point_weight), &loss_,
+            {extrinsic, AddPose(state(kKeyframe).t_ns, problem), AddPose(observation.t_ns, problem),
+             td, point});
       }
     }
   }

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/problem/observation_terms.h"
+
+#include "vins_estimator/factors/depth_factor.h"
+#include "vins_estimator/factors/intrinsics_factor.h"
+#include "vins_estimator/factors/line_factor.h"
+#include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/map/landmark_map.h"
+#include "vins_estimator/problem/expected_rays.h"
+
+namespace plm_vins {
+namespace {
+
+ChainKind KindOf(const ImageKey& host, const ImageKey& target) {
+  return {host.t_ns == target.t_ns, host.camera == target.camera};
+}
+
+}  // namespace
+
+ObservationTerms::ObservationTerms(const ProblemOptions* options, const SlidingWindow* window,
+                                   WindowVariables* variables, WindowProblem* problem)
+    : options_(options),
+      window_(window),
+      variables_(variables),
+      problem_(problem),
+      point_loss_(options->point_loss_scale),
+      line_loss_(options->line_loss_scale),
+      depth_loss_(options->depth_loss_scale) {
+  if (!options->estimate_intrinsics) return;
+  for (size_t i = 0; i < window->cameras.size(); ++i) {
+    const CameraParameters& configured = options->cameras[i].parameters;
+    cameras_.push_back(CameraModel::Create(configured.With(window->cameras[i].ray_intrinsics)));
+  }
+}
+
+ProblemPoint ObservationTerms::AddEliminated(PointLandmark* landmark) {
+  const int eliminated =
+      problem_->AddLandmark({BlockKind::kPoint, landmark->id}, landmark->coordinates.data());
+  problem_->ReserveLandmarkTerms(eliminated, CountMeasurements(landmark->observations));
+  return WithVariables(*landmark, problem_->landmarks()[eliminated].variable, eliminated);
+}
+
+ProblemLine ObservationTerms::AddEliminated(LineLandmark* landmark) {
+  constexpr size_t kOfAxis = 1;
+  const int eliminated =
+      problem_->AddLandmark({BlockKind::kLine, landmark->id}, landmark->coordinates.data());
+  problem_->ReserveLandmarkTerms(
+      eliminated, landmark->observations.size() + landmark->anchor_observations.size() + kOfAxis);
+  return WithVariables(*landmark, problem_->landmarks()[eliminated].variable, eliminated);
+}
+
+ProblemPoint ObservationTerms::AddConstant(PointLandmark* landmark) {
+  const int index = problem_->AddVariable({BlockKind::kPoint, landmark->id},
+                                          landmark->coordinates.data(), /*constant=*/true);
+  return WithVariables(*landmark, index, std::nullopt);
+}
+
+ProblemLine ObservationTerms::AddConstant(LineLandmark* landmark) {
+  const int index = problem_->AddVariable({BlockKind::kLine, landmark->id},
+                                          landmark->coordinates.data(), /*constant=*/true);
+  return WithVariables(*landmark, index, std::nullopt);
+}
+
+template <typename Landmark>
+ProblemLandmark<Landmark> ObservationTerms::WithVariables(const Landmark& landmark, int index,
+                                                          std::optional<int> eliminated) {
+  const int host_extrinsics = variables_->Extrinsics(landmark.host().camera);
+  const int host_pose = variables_->Pose(landmark.host().t_ns);
+  return {&landmark, index, eliminated, host_pose, host_extrinsics};
+}
+
+template <typename Landmark>
+TermVariables ObservationTerms::ChainVariables(const ChainKind& kind,
+                                               const ProblemLandmark<Landmark>& landmark,
+                                               const ImageKey& image) {
+  if (kind.is_host()) return {};
+  TermVariables poses{landmark.host_extrinsics};
+  if (!kind.same_frame) {
+    poses.Add(landmark.host_pose);
+    poses.Add(variables_->Pose(image.t_ns));
+  }
+  if (!kind.same_camera) poses.Add(variables_->Extrinsics(image.camera));
+  return poses;
+}
+
+void ObservationTerms::AddObservation(const ProblemPoint& point,
+                                      const PointLandmark::Observation& observation) {
+  const int camera = observation.camera;
+  const ChainKind kind = KindOf(point.landmark->host(), observation);
+  TermVariables variables = ChainVariables(kind, point, observation);
+  variables.Add(variables_->TimeOffset());
+  variables.Add(point.variable);
+  const PointFactor factor(kind, observation.bearing, options_->cameras[camera].point_weight);
+  if (cameras_.empty()) {
+    AddTerm(point.eliminated, factor, &point_loss_, variables);
+    return;
+  }
+  variables.Add(variables_->Intrinsics(camera));
+  const RayShift shift(*cameras_[camera], ExpectedRay(*point.landmark, observation, *window_));
+  AddTerm(point.eliminated, PointIntrinsicsFactor(factor, shift), &point_loss_, variables);
+}
+
+void ObservationTerms::AddObservation(const ProblemLine& line,
+                                      const LineLandmark::Observation& observation) {
+  AddLine(line, observation, options_->line_weight);
+}
+
+void ObservationTerms::AddAnchorObservation(const ProblemLine& line,
+                                            const LineLandmark::Observation& observation) {
+  AddLine(line, observation, options_->anchor_weight);
+}
+
+void ObservationTerms::AddDepth(const ProblemPoint& point,
+                                const PointLandmark::Observation& observation) {
+  if (!observation.depth) return;
+  const ChainKind kind = KindOf(point.landmark->host(), observation);
+  TermVariables variables = ChainVariables(kind, point, observation);
+  variables.Add(variables_->DepthStream());
+  variables.Add(point.variable);
+  const TimedDepth depth = window_->DepthIn(observation, *observation.depth);
+  AddTerm(point.eliminated, DepthFactor(kind, depth, options_->depth_weight), &depth_loss_,
+          variables);
+}
+
+void ObservationTerms::AddLine(const ProblemLine& line,
+                               const LineLandmark::Observation& observation, double weight) {
+  const int camera = observation.camera;
+  const ChainKind kind = KindOf(line.landmark->host(), observation);
+  TermVariables variables = ChainVariables(kind, line, observation);
+  variables.Add(line.variable);
+  const ProblemCamera& options = options_->cameras[camera];
+  const LineFactor factor(
+      kind, observation.segment,
+      observation.Weights(weight / options.noise_ratio) / options.line_noise_factor);
+  if (cameras_.empty()) {
+    AddTerm(line.eliminated, factor, &line_loss_, variables);
+    return;
+  }
+  variables.Add(variables_->Intrinsics(camera));
+  const LineSegmentView expected = ExpectedEnds(*line.landmark, observation, *window_);
+  const RayShift start(*cameras_[camera], expected.start), end(*cameras_[camera], expected.end);
+  AddTerm(line.eliminated, LineIntrinsicsFactor(factor, start, end), &line_loss_, variables);
+}
+
+template <typename FactorType>
+void ObservationTerms::AddTerm(std::optional<int> eliminated, const FactorType& factor,
+                               const ceres::LossFunction* loss, const TermVariables& variables) {
+  if (eliminated) {
+    problem_->AddLandmarkTerm(*eliminated, factor, loss, variables);
+  } else {
+    problem_->AddTerm(factor, loss, variables);
+  }
+}
+
+}  // namespace plm_vins

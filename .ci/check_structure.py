@@ -156,6 +156,20 @@ MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60
 MAX_COLUMNS = 100
 OLDEST_PYTHON = (3, 8)
+# Names that Ubuntu 20.04 lacks, by kind of file: Eigen 3.3, CMake 3.16, the library of Python 3.8.
+NEWER_NAMES = {
+    ".h .cpp": r"Eigen::(Row)?Vector[X2-4]?<|Eigen::(all|last|lastN|seq|seqN)\b|\.reshaped\(",
+    ".cmake .txt": r"\b(block|cmake_language|cmake_path)\("
+                   r"|\bfile\((ARCHIVE_|CHMOD|COPY_FILE|REAL_PATH)|\bstring\(JSON"
+                   r"|\bfind_(file|library|path|program)\([^)]*REQUIRED"
+                   r"|\b(CMAKE_CURRENT_FUNCTION|PROJECT_IS_TOP_LEVEL)"
+                   r"|\b(COMMAND_ERROR_IS_FATAL|ENVIRONMENT_MODIFICATION|FILE_SET|ZIP_LISTS)\b",
+    ".py": r"\.(removeprefix|removesuffix|is_relative_to|with_stem|bit_count|randbytes)\("
+           r"|\bfunctools\.cache\b|\bitertools\.pairwise\b|\bmath\.(lcm|nextafter|ulp)\b"
+           r"|\bBooleanOptionalAction\b|\b(dict|list|set|tuple)\[|\bzip\(.*\bstrict=",
+}
+NEWER_NAMES = {suffix: re.compile(names) for suffixes, names in NEWER_NAMES.items()
+               for suffix in suffixes.split()}
 
 
 def main(root):
@@ -163,6 +177,7 @@ def main(root):
     problems += [problem for path in text_files(root) for problem in check_paths(root, path)]
     problems += [problem for path in text_files(root) if path.suffix == ".py"
                  for problem in (*check_columns(root, path), *check_python(root, path))]
+    problems += [problem for path in text_files(root) for problem in check_names(root, path)]
     problems += [problem for path in text_files(root) if path.suffix == ".md"
                  for problem in check_links(root, path)]
     problems += check_circles(root)
@@ -283,6 +298,15 @@ def check_python(root, path):
         ast.parse(path.read_text(encoding="utf-8"), feature_version=OLDEST_PYTHON)
     except SyntaxError as error:
         yield f"{path.relative_to(root)}:{error.lineno}: {error.msg} (Python 3.8)"
+
+
+def check_names(root, path):
+    """Yields names that the libraries and tools of Ubuntu 20.04 do not know."""
+    newer = NEWER_NAMES.get(path.suffix)
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        found = newer and newer.search(line)
+        if found:
+            yield f"{path.relative_to(root)}:{number}: {found.group()} is newer than Ubuntu 20.04"
 
 
 def check_links(root, path):

@@ -57,6 +57,17 @@ class CheckStructure(unittest.TestCase):
         self.assert_problem("scripts/a.py", "match x:\n    case 1:\n        pass\n",
                             "(Python 3.8)")
 
+    def test_names_that_ubuntu_20_04_lacks(self):
+        for name, text in {
+                "common/a.h": HEADER + "Eigen::Vector<double, 5> a;\n",
+                "cmake/a.cmake": "find_program(A a REQUIRED)\n",
+                "test/CMakeLists.txt": "cmake_path(GET a FILENAME b)\n",
+                "scripts/a.py": f"a = b.{'removeprefix'}('c')\n"}.items():
+            self.assert_problem(name, text, "newer than Ubuntu 20.04")
+        self.assert_clean("common/a.h", HEADER + "Eigen::Vector3d a;\n")
+        self.assert_clean("cmake/a.cmake", "find_program(A a)\nfile(WRITE b c)\n")
+        self.assert_clean("scripts/a.py", "a = list(b)[0]\n")
+
     def test_types_of_one_name(self):
         def header(space, definition):
             return HEADER + f"namespace {space} {{\n{definition}\n}}\n"

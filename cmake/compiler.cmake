@@ -27,6 +27,9 @@ endif()
 
 option(WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 add_compile_options(-Wall -Wextra)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12)
+  add_compile_options(-Wno-maybe-uninitialized)  # false for members of optionals
+endif()
 # Programs load only libraries that they use: the estimator does not need the hundreds that read images.
 if(NOT APPLE)
   add_link_options(-Wl,--as-needed)

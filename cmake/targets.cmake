@@ -66,6 +66,7 @@ function(plm_add_tests program)
     plm_test_suites(${name}_test.cpp suites)
     add_test(NAME ${name}_test COMMAND ${program} --gtest_filter=${suites}
              --gtest_output=xml:${PLM_TEST_RESULTS}/${name}_test.xml)
+    set_tests_properties(${name}_test PROPERTIES LABELS unit)
   endforeach()
 endfunction()
 

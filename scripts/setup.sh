@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs missing packages for building, testing and running with apt: on Debian 12, or Ubuntu
-# 20.04 with ROS Noetic. Usage: setup.sh [further package ...]
+# Installs missing packages for building, testing and running with apt: on Debian 11 to 13, where
+# they have the same names, or Ubuntu 20.04 with ROS Noetic. Usage: setup.sh [further package ...]
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 # shellcheck source=scripts/usage.sh

@@ -1,8 +1,10 @@
-# PLM-VINS on Debian 12 with its own ROS 1 packages. From the checkout:
-#   docker build -f docker/debian12.Dockerfile -t plm_vins .
+# PLM-VINS on Debian 12, or 11 or 13 (--build-arg DEBIAN=13), with its own ROS 1 packages. From the
+# checkout:
+#   docker build -f docker/debian.Dockerfile -t plm_vins .
 #   docker run --rm -v /path/to/data:/data plm_vins run_offline --config /plm_vins/config/euroc.yaml \
 #     --bag /data/MH_05_difficult.bag --output /data/results
-FROM debian:12
+ARG DEBIAN=12
+FROM debian:$DEBIAN
 
 COPY scripts/setup.sh scripts/usage.sh /plm_vins/scripts/
 RUN /plm_vins/scripts/setup.sh && rm -rf /var/lib/apt/lists/*

@@ -14,6 +14,10 @@ add_compile_options(-fno-math-errno)
 option(PLM_NATIVE "Use all that this machine's processor can do; results differ in last bits" OFF)
 if(PLM_NATIVE)
   add_compile_options(-march=native)
+elseif(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|amd64|AMD64")
+  # Products are rounded before they are added, also by Eigen, as on x86-64, whose compilers fuse both
+  # only with -march=native.
+  add_compile_options(-ffp-contract=off -U__ARM_FEATURE_FMA)
 endif()
 
 # Findings abort the program. -O1 keeps their stack traces readable and compiles in half the time.

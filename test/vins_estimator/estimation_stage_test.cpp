@@ -244,7 +244,7 @@ std::string ReportOf(const EstimationStage& stage, const EstimatorOutput& newest
        << newest.imu_doubted << ' ' << newest.counts.points_in_window << ' '
        << newest.counts.known_rejected << ' ' << newest.delay.value_or(0)
        << " input: " << stage.InputFinding().text << "; IMU: " << stage.ImuContradiction()
-       << "; companions: " << stage.CompanionFault();
+       << "; sensors: " << stage.SensorFaults();
   return text.str();
 }
 

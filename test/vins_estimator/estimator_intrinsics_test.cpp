@@ -30,7 +30,7 @@ SimulatedFlight WithWrongIntrinsics(SimulatedFlight flight) {
   wrong.cx += 5;
   wrong.cy -= 5;
   const Recalibration recalibration(truth, wrong);
-  for (FrameMeasurement& frame : flight.frames) recalibration.Move(&frame);
+  for (FrameMeasurement& frame : flight.frames) recalibration.Move(0, &frame);
   return flight;
 }
 
@@ -58,7 +58,7 @@ TEST(EstimatorIntrinsicsTest, AreFoundInFlight) {
     spoiled.sensor.estimate_intrinsics = true;
     const EstimatedFlight flight = Fly(spoiled);
     found += testing::AbsoluteError(flight) / kSeeds;
-    ExpectIntrinsics(flight.outputs.back().calibration.camera,
+    ExpectIntrinsics(flight.outputs.back().calibration.cameras[0].parameters,
                      simulated.sensor.cameras[0].parameters);
   }
   EXPECT_LT(found, 1.3 * right);
@@ -73,7 +73,7 @@ TEST(EstimatorIntrinsicsTest, AreFoundWithARollingShutter) {
   SimulatedFlight spoiled = WithWrongIntrinsics(simulated);
   spoiled.sensor.estimate_intrinsics = true;
   const Calibration found = Fly(spoiled).outputs.back().calibration;
-  ExpectIntrinsics(found.camera, simulated.sensor.cameras[0].parameters);
+  ExpectIntrinsics(found.cameras[0].parameters, simulated.sensor.cameras[0].parameters);
 }
 
 }  // namespace

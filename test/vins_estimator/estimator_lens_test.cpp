@@ -46,7 +46,7 @@ std::string WarningAfter(const simulator::FeatureSimulationOptions& options,
                          const CameraParameters& believed, bool refine) {
   SimulatedFlight flight = testing::WithoutLines(testing::SimulateFlight(options));
   const Recalibration recalibration(flight.sensor.cameras[0].parameters, believed);
-  for (FrameMeasurement& frame : flight.frames) recalibration.Move(&frame);
+  for (FrameMeasurement& frame : flight.frames) recalibration.Move(0, &frame);
   flight.sensor.cameras[0].parameters = believed;
   flight.sensor.estimate_intrinsics = refine;
   Estimator estimator(testing::ConfigFor(flight));

@@ -20,7 +20,8 @@ using testing::EstimatedFlight;
 using testing::PoseCovariance;
 using testing::SimulatedFlight;
 
-simulator::FeatureSimulationOptions RobustnessOptions(Motion motion, uint64_t seed, double duration) {
+simulator::FeatureSimulationOptions RobustnessOptions(Motion motion, uint64_t seed,
+                                                      double duration) {
   auto options = testing::FlightOptions(motion, seed);
   options.trajectory.duration = duration;
   options.max_points = 80;
@@ -75,7 +76,7 @@ TEST(EstimatorRobustness, KnownPointsCorrectDeadReckoning) {
   testing::FlightPlan plan;
   plan.duration = 12;
   plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
-  SimulatedFlight flight = testing::PlannedFlight(plan).SimulateRobustness();
+  SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
   constexpr size_t kBlind = 160, kSees = 220;  // images
   for (size_t i = kBlind; i < kSees; ++i) {
     flight.frames[i].points.points.clear();

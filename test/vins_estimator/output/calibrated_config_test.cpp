@@ -64,6 +64,15 @@ TEST(CalibratedConfig, HasAllCameras) {
   EXPECT_EQ(second.T_B_C.translation, calibration.cameras[1].T_B_C.translation);
 }
 
+// Saves any estimated calibration and loads it again.
+Config ReadBack(const Calibration& calibration) {
+  const testing::TemporaryFolder folder;
+  Config config;
+  config.points.fisheye = false;
+  SaveCalibratedConfig(calibration, config, folder.File("calibrated.yaml"));
+  return LoadConfig(folder.File("calibrated.yaml"));
+}
+
 TEST(CalibratedConfig, StaysInTheRangesOfTheKeys) {
   Calibration calibration = SomeCalibration();
   calibration.td = -1.01;

@@ -121,7 +121,9 @@ TEST_F(AnchorPolicyTest, RecordsUseOfAnchorsThatObservedAnOptimizedLine) {
   window_.anchors = {{StateAt(1), Stamp(5)}, {StateAt(2), Stamp(6)}};
   NoteUse(lines_, &window_);
   EXPECT_EQ(window_.anchors[0].last_use_ns, Stamp(5));
-  Line().anchor_observations = {LineLandmark::Observation{Stamp(1), {}}};
+  LineLandmark::Observation observation;
+  observation.t_ns = Stamp(1);
+  Line().anchor_observations = {observation};
   NoteUse(lines_, &window_);
   EXPECT_EQ(window_.anchors[0].last_use_ns, Stamp(12));
   EXPECT_EQ(window_.anchors[1].last_use_ns, Stamp(6));

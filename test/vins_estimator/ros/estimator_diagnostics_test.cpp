@@ -94,7 +94,7 @@ TEST_F(EstimatorDiagnosticsTest, WarnOfUnusableInput) {
 
 TEST_F(EstimatorDiagnosticsTest, AreOkAgainOnceAFaultHasPassed) {
   Config config;
-  CameraParameters& camera = config.sensor.camera;
+  CameraParameters& camera = config.sensor.cameras[0].parameters;
   camera.width = camera.height = 200;
   camera.fx = camera.fy = camera.cx = camera.cy = 100;
   EstimationStage stage(config);

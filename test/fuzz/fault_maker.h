@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/measurements.h"
-#include "simulator/feature_simulator.h"
+#include "test/feature_simulator/feature_simulator.h"
 
 namespace plm_vins::fuzz {
 

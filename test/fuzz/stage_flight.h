@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/features/feature_checks.h"
-#include "simulator/feature_simulator.h"
+#include "test/feature_simulator/feature_simulator.h"
 #include "vins_estimator/estimation_stage.h"
 
 namespace plm_vins::fuzz {

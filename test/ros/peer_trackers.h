@@ -12,7 +12,7 @@
 
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/msg_conversion.h"
-#include "simulator/feature_simulator.h"
+#include "test/feature_simulator/feature_simulator.h"
 
 namespace plm_vins::testing {
 

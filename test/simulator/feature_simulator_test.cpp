@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulator/feature_simulator.h"
+#include "test/feature_simulator/feature_simulator.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "simulator/feature_simulator.h"
+#include "test/feature_simulator/feature_simulator.h"
 #include "vins_estimator/input/measurement_sync.h"
 
 namespace plm_vins::testing {

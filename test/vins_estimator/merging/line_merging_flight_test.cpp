@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "simulator/feature_simulator.h"
+#include "test/feature_simulator/feature_simulator.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 #include "test/vins_estimator/line_window.h"
 #include "vins_estimator/geometry/line_pairs.h"

@@ -8,9 +8,9 @@
 #include "common/config/config.h"
 #include "common/measurements.h"
 #include "simulator/default_sensors.h"
-#include "simulator/feature_world.h"
 #include "simulator/imu_simulator.h"
 #include "simulator/trajectory.h"
+#include "test/feature_simulator/feature_world.h"
 #include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins::simulator {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulator/feature_world.h"
+#include "test/feature_simulator/feature_world.h"
 
 #include <cmath>
 

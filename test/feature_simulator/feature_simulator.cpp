@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulator/feature_simulator.h"
+#include "test/feature_simulator/feature_simulator.h"
 
 #include <cmath>
 #include <memory>
@@ -8,7 +8,7 @@
 #include "common/camera/camera_model.h"
 #include "common/camera/readout_share.h"
 #include "simulator/random.h"
-#include "simulator/track_selector.h"
+#include "test/feature_simulator/track_selector.h"
 
 namespace plm_vins::simulator {
 namespace {

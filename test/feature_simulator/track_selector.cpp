@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulator/track_selector.h"
+#include "test/feature_simulator/track_selector.h"
 
 #include <set>
 

@@ -72,12 +72,11 @@ struct StateUncertainty {
 struct EstimatorReport {
   int64_t t_ns = 0;
   EstimatorStatus status = EstimatorStatus::kInitializing;
-  std::string reason;           // why not tracking, or why reinitialized; else empty
-  bool has_pose = false;        // state, calibration and `imu_noise` are valid
-  ImuNoise imu_noise;           // in use: as configured, or as estimated in flight
-  double imu_noise_scale = 1;   // factor on its variance (ImuMonitor)
-  bool imu_doubted = false;     // the newest IMU interval was re-weighted
-  std::optional<double> delay;  // rough error of td, if noticeable [s] (DelayMonitor)
+  std::string reason;          // why not tracking, or why reinitialized; else empty
+  bool has_pose = false;       // state, calibration and `imu_noise` are valid
+  ImuNoise imu_noise;          // in use: as configured, or as estimated in flight
+  double imu_noise_scale = 1;  // factor on its variance (ImuMonitor)
+  bool imu_doubted = false;    // the newest IMU interval was re-weighted
   SecondCameraFaults second_camera;
   DepthFaults depth;
   bool contradicted = false;  // many known landmarks are outliers

@@ -146,12 +146,10 @@ std::string EstimationStage::ImuContradiction() const {
                                     noise.gyro_density / NoiseOfSamples().gyro_density});
   const bool at_limit = IsAtLimit(noise.accel_density, configured.accel_density) ||
                         IsAtLimit(noise.gyro_density, configured.gyro_density);
-  if (newest.imu_noise_scale <= 1 && evidence.noise_factor < kContradictingNoise && !newest.delay &&
-      !at_limit) {
+  if (newest.imu_noise_scale <= 1 && evidence.noise_factor < kContradictingNoise && !at_limit) {
     return "";
   }
   const ImuNoiseMeter& meter = world_->imu_noise_meter;
-  evidence.delay = newest.delay;
   evidence.imu_jitter = world_->imu_rhythm.Jitter();
   evidence.image_jitter = world_->image_rhythm.Jitter();
   evidence.configured_imu_rate = config_.sensor.imu_rate;

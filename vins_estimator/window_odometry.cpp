@@ -376,7 +376,6 @@ EstimatorOutput WindowOdometry::Describe(const Step& step) const {
   output.R_W_M = structure_.manhattan().R_W_M();
   output.imu_noise = imu_noise_.noise();
   output.imu_noise_scale = imu_agreement_.noise_scale();
-  output.delay = imu_agreement_.delay();
   output.contradicted = estimate_monitor_.contradicted();
   const int fitting = step.counts.known_seen - step.counts.known_rejected;
   output.on_imu_alone = estimate_monitor_.blind() || (!output.stationary && fitting < kFewFeatures);

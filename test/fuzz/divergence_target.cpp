@@ -70,7 +70,7 @@ class Witness {
  private:
   static bool SaysSo(const EstimatorOutput& output) {
     return !output.has_pose || output.restarted || output.on_imu_alone || output.contradicted ||
-           output.imu_doubted || output.imu_noise_scale > 1 || output.delay;
+           output.imu_doubted || output.imu_noise_scale > 1;
   }
 
   // Position error after alignment of the world frame at the last report, since earlier errors have

@@ -242,9 +242,8 @@ std::string ReportOf(const EstimationStage& stage, const EstimatorOutput& newest
        << newest.imu_noise_scale << ' ' << newest.imu_noise.accel_density << ' '
        << newest.contradicted << newest.on_imu_alone << newest.keyframe << newest.stationary
        << newest.imu_doubted << ' ' << newest.counts.points_in_window << ' '
-       << newest.counts.known_rejected << ' ' << newest.delay.value_or(0)
-       << " input: " << stage.InputFinding().text << "; IMU: " << stage.ImuContradiction()
-       << "; sensors: " << stage.SensorFaults();
+       << newest.counts.known_rejected << " input: " << stage.InputFinding().text
+       << "; IMU: " << stage.ImuContradiction() << "; sensors: " << stage.SensorFaults();
   return text.str();
 }
 

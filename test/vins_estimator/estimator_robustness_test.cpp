@@ -215,31 +215,6 @@ TEST(EstimatorRobustness, NoiseOfAGoodImuIsNeverRaised) {
   }
 }
 
-// Removes images and the IMU samples before them.
-void CutOut(size_t first, size_t count, SimulatedFlight* flight) {
-  auto& frames = flight->frames;
-  auto& after = frames[first + count].imu;
-  after.insert(after.begin(), frames[first - 1].imu.back());
-  const auto begin = frames.begin() + static_cast<std::ptrdiff_t>(first);
-  frames.erase(begin, begin + static_cast<std::ptrdiff_t>(count));
-}
-
-TEST(EstimatorRobustness, ImuErrorIsNotReportedAsDelay) {
-  for (const uint64_t seed : {2, 3}) {
-    for (const size_t count : {10, 20, 30}) {
-      SimulatedFlight flight = SimulateRobustness(Motion::kGentle, seed, 8);
-      flight.sensor.imu_noise.accel_density = 0.03;  // as in euroc.yaml
-      flight.sensor.imu_noise.gyro_density = 0.001;
-      CutOut(80, count, &flight);
-      const EstimatedFlight estimated = testing::Estimate(flight);
-      EXPECT_GT(estimated.outputs.size(), 60u);
-      for (const EstimatorOutput& output : estimated.outputs) {
-        ASSERT_FALSE(output.delay) << "seed " << seed << ", " << count << " images missing";
-      }
-    }
-  }
-}
-
 TEST(EstimatorRobustness, TenSecondsOfBlindnessEndInARestart) {
   SimulatedFlight simulated = SimulateRobustness(Motion::kFast, 1, 20);
   for (size_t i = 180; i < 380; ++i) {

@@ -254,7 +254,7 @@ class TrackerNode {
     if (depth_subscriber_ && depth_stream_.Silence() > StreamMonitor::kSilence) {
       return {"depth: no messages on " + depth_subscriber_.getTopic(), true};
     }
-    return image_faults_.finding();
+    return stamp_faults_.finding().is_present ? stamp_faults_.finding() : image_faults_.finding();
   }
 
   ros::NodeHandle node_;

@@ -28,9 +28,6 @@ std::string DescribeContradiction(const ContradictionEvidence& evidence) {
   if (evidence.noise_factor > kNoisier) {
     text += Format(", whose noise is raised by a factor of %.0f", evidence.noise_factor);
   }
-  if (evidence.delay) {
-    text += Format("; td seems to be wrong by %+.0f ms or more", 1e3 * *evidence.delay);
-  }
   if (std::abs(evidence.imu_rate / evidence.configured_imu_rate - 1) > kRateTolerance) {
     text += Format("; the IMU rate is %.0f Hz, but imu_rate is %.0f", evidence.imu_rate,
                    evidence.configured_imu_rate);

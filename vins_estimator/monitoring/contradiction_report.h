@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <string>
 
 namespace plm_vins {
@@ -9,7 +8,6 @@ namespace plm_vins {
 // Facts that may explain why the camera persistently contradicts the IMU.
 struct ContradictionEvidence {
   double noise_factor = 1;                  // assumed noise of the IMU over that of its samples
-  std::optional<double> delay;              // rough error of td [s] (DelayMonitor)
   double imu_jitter = 0, image_jitter = 0;  // timestamp jitter, root mean square [s]
   double imu_rate = 0, configured_imu_rate = 0;  // [Hz]
   // Noise of the samples themselves over acc_n and gyr_n (ImuNoiseMeter).

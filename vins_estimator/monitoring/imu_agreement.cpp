@@ -32,7 +32,7 @@ std::optional<double> ImuAgreement::Add(const SlidingWindow& window, const Point
   evidence.chi_square = ImuChiSquare(motion, window.gravity_W, before, newest.state);
   evidence.points = fit.seen;
   evidence.contradicted = fit.contradicted;
-  if (!delay()) evidence.turn_residual = turn_residual;
+  evidence.turn_residual = turn_residual;
   return imu_monitor_.Add(evidence);
 }
 
@@ -52,9 +52,7 @@ void ImuAgreement::AddTurn(const Preintegration& motion, const Eigen::Vector3d& 
     stamp_jitter_.Skip();
     return;
   }
-  const Eigen::Vector3d rate = motion.samples().back().gyro;
-  delay_monitor_.Add(residual, rate - motion.samples().front().gyro);
-  stamp_jitter_.Add(residual, rate);
+  stamp_jitter_.Add(residual, motion.samples().back().gyro);
 }
 
 }  // namespace plm_vins

@@ -8,7 +8,6 @@
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/map/point_map.h"
 #include "vins_estimator/map/sliding_window.h"
-#include "vins_estimator/monitoring/delay_monitor.h"
 #include "vins_estimator/monitoring/imu_monitor.h"
 #include "vins_estimator/monitoring/stamp_jitter.h"
 
@@ -18,7 +17,7 @@ namespace plm_vins {
 void DoubtInterval(const ImuNoise& noise, Preintegration* motion);
 
 // Checks whether IMU and camera agree on the motion between images, and finds the cause if they do
-// not: noise, a bias step, or timestamps of images that are delayed or jitter.
+// not: noise, a bias step, or timestamps of images that jitter.
 class ImuAgreement {
  public:
   // Adds the newest interval of an optimized window and the inlier counts of the newest image.
@@ -33,9 +32,6 @@ class ImuAgreement {
   // Factor on the variance of the IMU noise in the next interval; 1 if the noise is correct.
   double noise_scale() const { return imu_monitor_.noise_scale(); }
 
-  // Approximate error of td [s]; nullopt if it is not significant.
-  std::optional<double> delay() const { return delay_monitor_.delay(); }
-
   // Standard deviation of the image timestamps [s]; zero if it is not significant.
   double stamp_deviation() const { return stamp_jitter_.deviation(); }
 
@@ -43,7 +39,6 @@ class ImuAgreement {
   void AddTurn(const Preintegration& motion, const Eigen::Vector3d& residual);
 
   ImuMonitor imu_monitor_;
-  DelayMonitor delay_monitor_;
   StampJitterMonitor stamp_jitter_;
 };
 

@@ -78,7 +78,6 @@ struct EstimatorReport {
   ImuNoise imu_noise;                 // in use: as configured, or as estimated in flight
   double imu_noise_scale = 1;         // factor on its variance (ImuMonitor)
   bool imu_doubted = false;           // the newest IMU interval was re-weighted
-  std::optional<double> delay;        // rough error of td, if noticeable [s] (DelayMonitor)
   std::vector<CameraFaults> cameras;  // all but the first
   DepthFaults depth;
   bool contradicted = false;  // many known landmarks are outliers

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests run_offline on simulated flights with a second camera, and with depth images.
+"""Tests run_offline on simulated flights with several cameras, and with depth images.
 
 Usage: pair_flight_test.py SIMULATE RUN_OFFLINE [unittest option ...]
 """
@@ -21,7 +21,8 @@ from evaluation.trajectory import read_trajectory  # noqa: E402
 
 SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
 SECONDS = 4
-USED = {"stereo": "matched_used", "depth": "depths_used"}  # counts of summary.json
+# Counts of summary.json.
+USED = {"stereo": "matched_used", "rig": "matched_used", "depth": "depths_used"}
 
 
 class PairFlight(unittest.TestCase):
@@ -62,6 +63,9 @@ class PairFlight(unittest.TestCase):
 
     def test_second_camera(self):
         self.assert_uses("stereo")
+
+    def test_pair_and_a_camera_that_looks_back(self):
+        self.assert_uses("rig")
 
     def test_depth(self):
         self.assert_uses("depth")

@@ -95,7 +95,7 @@ class RunOffline(unittest.TestCase):
         features = self.folder / "flight.features"
         values = {"freq": 10.0, "max_cnt": 150, "use_lines": False, "min_dist": 30.0}
         text = json.dumps(values).encode()
-        features.write_bytes(b"plm_features v2\n" + struct.pack("<I", len(text)) + text)
+        features.write_bytes(b"plm_features v3\n" + struct.pack("<I", len(text)) + text)
         recorded = ["--set", "freq=10", "max_cnt=150", "use_lines=0", "min_dist=30"]
         other = ["--set", "freq=5", "max_cnt=30", "use_lines=1", "min_dist=30"]
         warning = f"warning: {features} was recorded with other values of freq, max_cnt, use_lines"

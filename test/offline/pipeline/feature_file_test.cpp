@@ -155,7 +155,7 @@ TEST_F(FeatureFile, RejectsNestedValues) {
         std::string(R"({"camera":{"names":{"freq":10}}})")}) {
     const auto size = static_cast<uint32_t>(text.size());
     std::ofstream(file_, std::ios::binary)
-        << "plm_features v2\n"
+        << "plm_features v3\n"
         << std::string(reinterpret_cast<const char*>(&size), sizeof(size)) << text;
     EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
   }

@@ -22,7 +22,7 @@ std::vector<TrackedFeatures> AwkwardRun(FeatureTrackers* trackers) {
     const bool gyro = t < 1000 || t > 1500;
     for (int imu = t - 45; gyro && imu <= t; imu += 5)
       trackers->AddImu(StillImu((10'000 + imu) * kMillisecond));
-    trackers->AddImage({(10'000 + t) * kMillisecond, picture});
+    trackers->AddImage(0, {(10'000 + t) * kMillisecond, picture});
     while (auto frame = trackers->Pop()) frames.push_back(std::move(*frame));
   };
   for (int t = 0; t < 2000; t += 50) add(t, StillPicture());

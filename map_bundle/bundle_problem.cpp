@@ -14,6 +14,7 @@
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
 #include "vins_estimator/geometry/point_in_host.h"
+#include "vins_estimator/least_squares/chain_variables.h"
 #include "vins_estimator/least_squares/window_problem.h"
 #include "vins_estimator/optimization/ceres_solver.h"
 
@@ -47,8 +48,6 @@ class BundleProblem {
   int Pose(int keyframe) const { return problem_.Find({BlockKind::kPose, keyframe}); }
   int Motion(int keyframe) const { return problem_.Find({BlockKind::kMotion, keyframe}); }
   int Extrinsics(int camera) const { return problem_.Find({BlockKind::kExtrinsic, camera}); }
-  TermVariables ChainVariables(const ChainKind& kind, const LandmarkTrack::Observation& host,
-                               const LandmarkTrack::Observation& target) const;
 
   const BundleOptions options_;
   const Eigen::Vector3d gravity_M_;
@@ -133,19 +132,6 @@ void BundleProblem::HoldFirst() {
   problem_.AddTerm(GaugePrior(first.start, kGaugeDeviation), nullptr, {Pose(number)});
 }
 
-TermVariables BundleProblem::ChainVariables(const ChainKind& kind,
-                                            const LandmarkTrack::Observation& host,
-                                            const LandmarkTrack::Observation& target) const {
-  if (kind.is_host()) return {};
-  TermVariables poses{Extrinsics(host.camera)};
-  if (!kind.same_frame) {
-    poses.Add(Pose(host.keyframe));
-    poses.Add(Pose(target.keyframe));
-  }
-  if (!kind.same_camera) poses.Add(Extrinsics(target.camera));
-  return poses;
-}
-
 // Parameterizes the landmark by its first observation (host) and inverse depth, with one factor for
 // each observation and each measured depth.
 void BundleProblem::AddLandmark(const LandmarkTrack& landmark) {
@@ -157,18 +143,14 @@ void BundleProblem::AddLandmark(const LandmarkTrack& landmark) {
   const int point = problem_.Find(id);
   for (const LandmarkTrack::Observation& target : landmark.observations) {
     const ChainKind kind{target.keyframe == host.keyframe, target.camera == host.camera};
-    TermVariables variables = ChainVariables(kind, host, target);
-    TermVariables depth_variables = variables;
-    variables.Add(td_variable_);
-    variables.Add(point);
+    const ChainEnds ends{Pose(host.keyframe), Extrinsics(host.camera), Pose(target.keyframe),
+                         Extrinsics(target.camera)};
     const TimedBearing bearing{target.xy, Eigen::Vector2d::Zero(), 0};
     problem_.AddLandmarkTerm(index, PointFactor(kind, bearing, 1 / options_.noise.Of(target, host)),
-                             &loss_, variables);
+                             &loss_, ChainVariables(kind, ends, {td_variable_, point}));
     if (!target.depth) continue;
-    depth_variables.Add(depth_stream_variable_);
-    depth_variables.Add(point);
     problem_.AddLandmarkTerm(index, DepthFactor(kind, {*target.depth}, 1 / options_.depth_noise),
-                             &loss_, depth_variables);
+                             &loss_, ChainVariables(kind, ends, {depth_stream_variable_, point}));
   }
 }
 

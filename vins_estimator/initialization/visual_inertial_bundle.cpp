@@ -15,6 +15,7 @@
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/geometry/depth_limits.h"
 #include "vins_estimator/geometry/point_in_host.h"
+#include "vins_estimator/least_squares/chain_variables.h"
 #include "vins_estimator/least_squares/normal_equations.h"
 #include "vins_estimator/least_squares/term_evaluation.h"
 #include "vins_estimator/least_squares/window_problem.h"
@@ -50,8 +51,6 @@ class Bundle {
   void AddPriors();
   Eigen::Vector3d InCamera(const Track::Observation& image, const Eigen::Vector3d& p_W) const;
   void AddTrack(const Track& track, const Eigen::Vector3d& p_W);
-  TermVariables ChainVariables(const ChainKind& kind, const Track::Observation& host,
-                               const Track::Observation& target) const;
   Eigen::VectorXd ScaleDirection() const;
 
   const VisualInertialBundleOptions options_;
@@ -123,18 +122,6 @@ Eigen::Vector3d Bundle::InCamera(const Track::Observation& image,
   return (states_[image.view].T_W_B() * options_.T_B_C[image.camera]).Inverse() * p_W;
 }
 
-TermVariables Bundle::ChainVariables(const ChainKind& kind, const Track::Observation& host,
-                                     const Track::Observation& target) const {
-  if (kind.is_host()) return {};
-  TermVariables poses{extrinsics_variables_[host.camera]};
-  if (!kind.same_frame) {
-    poses.Add(poses_[host.view]);
-    poses.Add(poses_[target.view]);
-  }
-  if (!kind.same_camera) poses.Add(extrinsics_variables_[target.camera]);
-  return poses;
-}
-
 // Adds a point, hosted by the first observation of its track, with a factor for each observation
 // and for each measured depth.
 void Bundle::AddTrack(const Track& track, const Eigen::Vector3d& p_W) {
@@ -149,18 +136,14 @@ void Bundle::AddTrack(const Track& track, const Eigen::Vector3d& p_W) {
   const int point = problem_.Find(id);
   for (const Track::Observation& target : track.observations) {
     const ChainKind kind{target.view == host.view, target.camera == host.camera};
-    TermVariables variables = ChainVariables(kind, host, target);
-    TermVariables depth_variables = variables;
-    variables.Add(td_variable_);
-    variables.Add(point);
+    const ChainEnds ends{poses_[host.view], extrinsics_variables_[host.camera], poses_[target.view],
+                         extrinsics_variables_[target.camera]};
     const TimedBearing bearing{target.xy, Eigen::Vector2d::Zero(), 0};
     problem_.AddLandmarkTerm(index, PointFactor(kind, bearing, 1 / options_.noise), &loss_,
-                             variables);
+                             ChainVariables(kind, ends, {td_variable_, point}));
     if (!target.depth) continue;
-    depth_variables.Add(depth_stream_variable_);
-    depth_variables.Add(point);
     problem_.AddLandmarkTerm(index, DepthFactor(kind, {*target.depth}, 1 / options_.depth_noise),
-                             &loss_, depth_variables);
+                             &loss_, ChainVariables(kind, ends, {depth_stream_variable_, point}));
   }
 }
 

@@ -5,6 +5,7 @@
 #include "vins_estimator/factors/intrinsics_factor.h"
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/least_squares/chain_variables.h"
 #include "vins_estimator/map/landmark_map.h"
 #include "vins_estimator/problem/expected_rays.h"
 
@@ -70,27 +71,22 @@ ProblemLandmark<Landmark> ObservationTerms::WithVariables(const Landmark& landma
 }
 
 template <typename Landmark>
-TermVariables ObservationTerms::ChainVariables(const ChainKind& kind,
-                                               const ProblemLandmark<Landmark>& landmark,
-                                               const ImageKey& image) {
-  if (kind.is_host()) return {};
-  TermVariables poses{landmark.host_extrinsics};
-  if (!kind.same_frame) {
-    poses.Add(landmark.host_pose);
-    poses.Add(variables_->Pose(image.t_ns));
-  }
-  if (!kind.same_camera) poses.Add(variables_->Extrinsics(image.camera));
-  return poses;
+TermVariables ObservationTerms::VariablesOf(const ProblemLandmark<Landmark>& landmark,
+                                            const ImageKey& image,
+                                            std::initializer_list<int> others) {
+  return ChainVariables(KindOf(landmark.landmark->host(), image),
+                        {landmark.host_pose, landmark.host_extrinsics, variables_->Pose(image.t_ns),
+                         variables_->Extrinsics(image.camera)},
+                        others);
 }
 
 void ObservationTerms::AddObservation(const ProblemPoint& point,
                                       const PointLandmark::Observation& observation) {
   const int camera = observation.camera;
-  const ChainKind kind = KindOf(point.landmark->host(), observation);
-  TermVariables variables = ChainVariables(kind, point, observation);
-  variables.Add(variables_->TimeOffset());
-  variables.Add(point.variable);
-  const PointFactor factor(kind, observation.bearing, options_->cameras[camera].point_weight);
+  const PointFactor factor(KindOf(point.landmark->host(), observation), observation.bearing,
+                           options_->cameras[camera].point_weight);
+  TermVariables variables =
+      VariablesOf(point, observation, {variables_->TimeOffset(), point.variable});
   if (cameras_.empty()) {
     AddTerm(point.eliminated, factor, &point_loss_, variables);
     return;
@@ -113,25 +109,21 @@ void ObservationTerms::AddAnchorObservation(const ProblemLine& line,
 void ObservationTerms::AddDepth(const ProblemPoint& point,
                                 const PointLandmark::Observation& observation) {
   if (!observation.depth) return;
-  const ChainKind kind = KindOf(point.landmark->host(), observation);
-  TermVariables variables = ChainVariables(kind, point, observation);
-  variables.Add(variables_->DepthStream());
-  variables.Add(point.variable);
-  const TimedDepth depth = window_->DepthIn(observation, *observation.depth);
-  AddTerm(point.eliminated, DepthFactor(kind, depth, options_->depth_weight), &depth_loss_,
-          variables);
+  const DepthFactor factor(KindOf(point.landmark->host(), observation),
+                           window_->DepthIn(observation, *observation.depth),
+                           options_->depth_weight);
+  AddTerm(point.eliminated, factor, &depth_loss_,
+          VariablesOf(point, observation, {variables_->DepthStream(), point.variable}));
 }
 
 void ObservationTerms::AddLine(const ProblemLine& line,
                                const LineLandmark::Observation& observation, double weight) {
   const int camera = observation.camera;
-  const ChainKind kind = KindOf(line.landmark->host(), observation);
-  TermVariables variables = ChainVariables(kind, line, observation);
-  variables.Add(line.variable);
   const ProblemCamera& options = options_->cameras[camera];
   const LineFactor factor(
-      kind, observation.segment,
+      KindOf(line.landmark->host(), observation), observation.segment,
       observation.Weights(weight / options.noise_ratio) / options.line_noise_factor);
+  TermVariables variables = VariablesOf(line, observation, {line.variable});
   if (cameras_.empty()) {
     AddTerm(line.eliminated, factor, &line_loss_, variables);
     return;

@@ -3,12 +3,12 @@
 
 #include <ceres/loss_function.h>
 
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "common/camera/camera_model.h"
-#include "vins_estimator/factors/camera_chain.h"
 #include "vins_estimator/least_squares/window_problem.h"
 #include "vins_estimator/map/line_landmark.h"
 #include "vins_estimator/map/point_landmark.h"
@@ -56,10 +56,10 @@ class ObservationTerms {
   template <typename Landmark>
   ProblemLandmark<Landmark> WithVariables(const Landmark& landmark, int index,
                                           std::optional<int> eliminated);
-  // Returns the poses that an observation of the kind depends on.
+  // Returns the variables that an observation depends on: those of its chain, and others.
   template <typename Landmark>
-  TermVariables ChainVariables(const ChainKind& kind, const ProblemLandmark<Landmark>& landmark,
-                               const ImageKey& image);
+  TermVariables VariablesOf(const ProblemLandmark<Landmark>& landmark, const ImageKey& image,
+                            std::initializer_list<int> others);
   void AddLine(const ProblemLine& line, const LineLandmark::Observation& observation,
                double weight);
   template <typename FactorType>

@@ -309,6 +309,8 @@ TEST_F(LineMapTest, RemovesLinesBehindTheirCamerasAndLinesTooLong) {
       ToOrthonormal(LineThrough(-(T_C_W0 * segment.start), -(T_C_W0 * segment.end)));
   Landmark(4).observations.resize(1);
   Landmark(4).observations.push_back(Landmark(4).observations[0]);
+  window_.frames.push_back(window_.frames[0]);  // at the same pose
+  window_.frames.back().state.t_ns = Landmark(4).observations[1].t_ns = Stamp(4);
   EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 1);
   EXPECT_EQ(map_.landmarks().count(4), 0u);
 

@@ -128,8 +128,8 @@ TEST_F(ProblemBuilderTest, LineHasATermForEveryObservation) {
   EXPECT_EQ(problem.variables().size(), 5u);  // three poses, line, extrinsics
   for (size_t i = 1; i < 3; ++i) {
     ASSERT_EQ(line.terms[i].variable_count, 4);
-    EXPECT_EQ(line.terms[i].variables[0], problem.Find({BlockKind::kPose, Stamp(0)}));
-    EXPECT_EQ(line.terms[i].variables[1], problem.Find({BlockKind::kPose, Stamp(i)}));
+    EXPECT_EQ(line.terms[i].variables[1], problem.Find({BlockKind::kPose, Stamp(0)}));
+    EXPECT_EQ(line.terms[i].variables[2], problem.Find({BlockKind::kPose, Stamp(i)}));
   }
 }
 

@@ -132,7 +132,8 @@ class Loader {
 
   void AddWarnings() {
     if (!ignored_.empty()) {
-      config_.warnings.push_back(config_.file + ": keys without effect: " + JoinWords(ignored_, ", "));
+      config_.warnings.push_back(config_.file +
+                                 ": keys without effect: " + JoinWords(ignored_, ", "));
     }
     if (LacksMask(entries_, config_)) {
       config_.warnings.push_back(At("fisheye") +

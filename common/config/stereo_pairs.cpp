@@ -38,8 +38,8 @@ std::vector<StereoPair> OverlappingPairs(const std::vector<CameraSensor>& camera
       if (HasPair(first, pairs) || HasPair(second, pairs)) continue;
       const CameraSensor &a = cameras[first], &b = cameras[second];
       const Eigen::Quaterniond R_A_B = a.T_B_C.rotation.conjugate() * b.T_B_C.rotation;
-      const double shared = SharedView(*CameraModel::Create(a.parameters),
-                                       *CameraModel::Create(b.parameters), R_A_B);
+      const double shared =
+          SharedView(*CameraModel::Create(a.parameters), *CameraModel::Create(b.parameters), R_A_B);
       if (shared > kMinShared) pairs.push_back({first, second});
     }
   }

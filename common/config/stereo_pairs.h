@@ -17,8 +17,9 @@ struct StereoPair {
   int second = 1;
 };
 
-// Returns the pairs of the cameras. The key stereo_pairs names them, such as "0-1 2-3"; "auto" pairs
-// cameras of which the first one shows more than half of the distant points of the second one.
+// Returns the pairs of the cameras. The key stereo_pairs names them, such as "0-1 2-3"; "auto"
+// pairs cameras of which the first one shows more than half of the distant points of the second
+// one.
 std::vector<StereoPair> StereoPairs(const SensorConfig& sensor);
 
 // Returns whether the camera is tracked on its own: it is not the second one of a pair.

@@ -14,12 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "test/benchmark/image_benchmark.h"
 #include "common/config/config.h"
 #include "linefeature_tracker/detection/line_finder.h"
 #include "linefeature_tracker/following/line_flow.h"
 #include "linefeature_tracker/line_tracker.h"
 #include "linefeature_tracker/segments/segment_sampler.h"
+#include "test/benchmark/image_benchmark.h"
 #include "test/linefeature_tracker/bar_scene.h"
 
 namespace plm_vins {

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "test/benchmark/image_benchmark.h"
 #include "common/config/config.h"
 #include "feature_tracker/contrast_equalizer.h"
 #include "feature_tracker/detection/corner_detector.h"
 #include "feature_tracker/following/optical_flow.h"
 #include "feature_tracker/following/outlier_rejection.h"
 #include "feature_tracker/point_tracker.h"
+#include "test/benchmark/image_benchmark.h"
 #include "tracking/images/image_mask.h"
 
 namespace plm_vins {

@@ -13,7 +13,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int64_t kFirstStamp = 1'403'636'579'000'000'000;  // the magnitude of real timestamps
-constexpr int64_t kPeriod = 5'000'000;                 // 200 Hz
+constexpr int64_t kPeriod = 5'000'000;                      // 200 Hz
 const Rigid3d T_B_C(SO3Exp({0.4, -1.3, 0.8}), {0.1, 0.2, 0.3});
 
 ImuSample Sample(int64_t t_ns, const Eigen::Vector3d& gyro) {
@@ -129,10 +129,12 @@ TEST(GyroPredictor, DropsOldSamples) {
 TEST(GyroPredictor, RestartsIfAllStampsJumpBack) {
   GyroPredictor predictor(Rigid3d(), 0);
   for (const int64_t t : {0, 1, 2}) {
-    predictor.AddImu(Sample(kFirstStamp + 3'600'000'000'000 + t * kPeriod, Eigen::Vector3d::Zero()));
+    predictor.AddImu(
+        Sample(kFirstStamp + 3'600'000'000'000 + t * kPeriod, Eigen::Vector3d::Zero()));
   }
   Feed(&predictor, 1, [](double) { return Eigen::Vector3d(0, 0, 1); });
-  EXPECT_FALSE(predictor.Rotation(kFirstStamp + 100'000'000, kFirstStamp + 150'000'000)) << "refused";
+  EXPECT_FALSE(predictor.Rotation(kFirstStamp + 100'000'000, kFirstStamp + 150'000'000))
+      << "refused";
   EXPECT_TRUE(predictor.Rotation(kFirstStamp + 800'000'000, kFirstStamp + 850'000'000));
 }
 

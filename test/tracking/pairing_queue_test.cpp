@@ -14,9 +14,7 @@ ImageSample At(int64_t milliseconds) { return {milliseconds * kMilli, {}}; }
 
 class PairingQueueTest : public ::testing::Test {
  protected:
-  bool IsAwaited(int64_t milliseconds) const {
-    return queue_.IsAwaited(milliseconds * kMilli);
-  }
+  bool IsAwaited(int64_t milliseconds) const { return queue_.IsAwaited(milliseconds * kMilli); }
   // The stamp [ms], or -1.
   int64_t Take(int64_t milliseconds) {
     const auto taken = queue_.Take(milliseconds * kMilli);

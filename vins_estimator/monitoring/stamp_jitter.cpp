@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kJitterForgetting = 0.02;    // per image: 2.5 s at 20 Hz
+constexpr double kJitterForgetting = 0.02;  // per image: 2.5 s at 20 Hz
 constexpr double kMinRatio = 4.0;       // ratio of the variances along and across the rotation axis
 constexpr double kMinDeviation = 1e-3;  // [s]
 // Sum of products of two squared rates [rad^4/s^4]: jitter is unobservable without rotation.

@@ -50,7 +50,8 @@ TEST(StereoPairsTest, CanBeGiven) {
 
 TEST(StereoPairsTest, OthersAreProblems) {
   SensorConfig sensor = TwoPairs(M_PI);
-  for (const char* text : {"", "all", "0-1,2-3", "1-0", "0-0", "0-4", "0-1 1-2", "0-2 1-2", "0-1 0-2"}) {
+  for (const char* text :
+       {"", "all", "0-1,2-3", "1-0", "0-0", "0-4", "0-1 1-2", "0-2 1-2", "0-1 0-2"}) {
     sensor.stereo_pairs = text;
     EXPECT_TRUE(CheckStereoPairs(sensor)) << text;
   }

@@ -21,7 +21,8 @@ namespace {
 
 namespace encodings = sensor_msgs::image_encodings;
 
-constexpr int64_t kImageStamp = 1403636579763555584;  // from EuRoC; exceeds the precision of a double
+constexpr int64_t kImageStamp =
+    1403636579763555584;  // from EuRoC; exceeds the precision of a double
 
 // A 6 x 4 image whose pixels all consist of the bytes `pixel`.
 sensor_msgs::Image MakeImage(const std::string& encoding, const std::vector<uint8_t>& pixel) {

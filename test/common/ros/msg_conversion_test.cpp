@@ -13,7 +13,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr int64_t kCloudStamp = 1403636579763555584;  // from EuRoC; exceeds the precision of a double
+constexpr int64_t kCloudStamp =
+    1403636579763555584;  // from EuRoC; exceeds the precision of a double
 
 PointFrame ReadPoints(const sensor_msgs::PointCloud& message) {
   int64_t left_out = 0;

@@ -64,7 +64,8 @@ void WriteApart(const std::string& topic, int i, const Message& message, rosbag:
 class BagTopics : public ::testing::Test {
  protected:
   void WriteImages(rosbag::Bag* bag) {
-    for (int i = 0; i < kTopicsSamples; i += 5) bag->write("/cam0/image_raw", TopicStamp(i), Image(i));
+    for (int i = 0; i < kTopicsSamples; i += 5)
+      bag->write("/cam0/image_raw", TopicStamp(i), Image(i));
   }
   void WriteImu(rosbag::Bag* bag) {
     for (int i = 0; i < kTopicsSamples; ++i) bag->write("/imu0", TopicStamp(i), TopicImu(i));

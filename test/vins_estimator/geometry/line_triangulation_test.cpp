@@ -118,7 +118,8 @@ TEST(TriangulateLine, ErrorMatchesTheNoise) {
   double nees = 0;
   for (int seed = 1; seed <= kTrials; ++seed) {
     const auto observations = SeeOnTheWay({0.2, 0.8, 0.1}, kEndNoise, seed);
-    const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(kEndNoise), observations);
+    const TriangulatedLine found =
+        TriangulateLine(LineTriangulationOptions(kEndNoise), observations);
     ASSERT_EQ(found.result, Result::kOk);
     const auto fit = EvaluateLine(observations, kEndNoise, found.line);
     ASSERT_TRUE(fit);

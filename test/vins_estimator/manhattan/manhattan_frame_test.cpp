@@ -123,7 +123,8 @@ TEST(ManhattanFrame, IsFoundAmongHorizontalOutliers) {
 }
 
 TEST(ManhattanFrame, IsFoundWhereTheHeadingWraps) {
-  for (const double heading : {-45 * kOneDegree, 45 * kOneDegree, 44.9 * kOneDegree, 135 * kOneDegree}) {
+  for (const double heading :
+       {-45 * kOneDegree, 45 * kOneDegree, 44.9 * kOneDegree, 135 * kOneDegree}) {
     ManhattanFrame frame;
     LineStream(3, kOneDegree).Feed(15, Built(heading, 0.2), &frame);
     ASSERT_EQ(frame.state(), ManhattanState::kLocked);

@@ -13,7 +13,7 @@ namespace {
 
 const ImuNoise kImuNoise = {1e-3, 1e-2, 1e-5, 1e-3};
 constexpr double kInterval = 0.05;  // [s]
-constexpr int kWindowFrames = 5;          // in the window; the third one is the keyframe
+constexpr int kWindowFrames = 5;    // in the window; the third one is the keyframe
 constexpr PointMap::Fit kFits = {100, 0};
 
 // A window at standstill with exact readings.

@@ -38,7 +38,7 @@ OdometryPipeline::OdometryPipeline(const Config& config)
     : use_lines_(config.use_lines),
       keeps_pixels_(config.pose_graph.loop_closure),
       image_topic_(config.sensor.cameras[0].image_topic),
-      schedule_(config),
+      schedule_(config.publish_rate),
       trackers_(config),
       back_end_(config) {}
 
@@ -120,8 +120,8 @@ void OdometryPipeline::Read(Recording* recording, RecordingInterval interval,
 std::optional<cv::Mat> OdometryPipeline::Load(const RecordingEvent& event, Recording* recording) {
   using Kind = RecordingEvent::Kind;
   if (event.kind == Kind::kImu) return std::nullopt;
-  const bool is_due = event.kind == Kind::kDepth || schedule_.IsDue(event.camera, event.t_ns);
-  if (!is_due) return cv::Mat();
+  const bool is_needed = event.kind == Kind::kDepth || schedule_.IsNeeded(event.camera, event.t_ns);
+  if (!is_needed) return cv::Mat();
   return recording->LoadImage();
 }
 

@@ -21,7 +21,7 @@
 #include "offline/recordings/confirmed_stamp.h"
 #include "offline/recordings/recording.h"
 #include "offline/recordings/recording_interval.h"
-#include "tracking/stereo/match_schedule.h"
+#include "tracking/image_schedule.h"
 #include "vins_estimator/estimation_stage.h"
 
 namespace plm_vins {
@@ -120,7 +120,7 @@ class OdometryPipeline {
   const bool use_lines_;
   const bool keeps_pixels_;
   const std::string image_topic_;
-  MatchSchedule schedule_;
+  ImageSchedule schedule_;
   FeatureTrackers trackers_;
   EstimationStage back_end_;
   std::function<bool()> is_end_ = [] { return false; };

@@ -93,7 +93,7 @@ SimulatedFlight WithBlindFront(SimulatedFlight flight) {
 }
 
 template <typename Fly>
-double MeanError(const Fly& fly) {
+double MeanRigError(const Fly& fly) {
   constexpr int kFlights = 3;
   double sum = 0;
   for (uint64_t seed = 1; seed <= kFlights; ++seed) {
@@ -103,15 +103,15 @@ double MeanError(const Fly& fly) {
 }
 
 TEST(EstimatorRig, ACameraThatLooksBackHelps) {
-  const double front = MeanError(&FrontFlight);
+  const double front = MeanRigError(&FrontFlight);
   const double both =
-      MeanError([](uint64_t seed) { return WithBackCamera(FrontFlight(seed), seed); });
+      MeanRigError([](uint64_t seed) { return WithBackCamera(FrontFlight(seed), seed); });
   EXPECT_LT(both, front);
 }
 
 TEST(EstimatorRig, CarriesOnWhileTheFirstCameraIsBlind) {
-  const double front = MeanError([](uint64_t seed) { return WithBlindFront(FrontFlight(seed)); });
-  const double both = MeanError(
+  const double front = MeanRigError([](uint64_t seed) { return WithBlindFront(FrontFlight(seed)); });
+  const double both = MeanRigError(
       [](uint64_t seed) { return WithBlindFront(WithBackCamera(FrontFlight(seed), seed)); });
   EXPECT_LT(both, 0.8 * front);
 }

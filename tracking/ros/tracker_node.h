@@ -28,9 +28,9 @@
 #include "common/ros/stream_monitor.h"
 #include "common/streams/constant_stamp.h"
 #include "common/streams/drop_counts.h"
+#include "tracking/image_schedule.h"
 #include "tracking/ros/imu_inbox.h"
 #include "tracking/ros/run_time_settings.h"
-#include "tracking/stereo/match_schedule.h"
 
 namespace plm_vins {
 
@@ -54,7 +54,7 @@ class TrackerNode {
         private_node_(private_node),
         config_(config),
         stage_(config, kMaxWait),
-        schedule_(config),
+        schedule_(config.publish_rate),
         diagnostics_(node, private_node, private_node.getNamespace()),
         settings_(Traits::ToSettings(config), private_node,
                   [this](const Settings& settings) { Apply(settings); }) {
@@ -108,7 +108,7 @@ class TrackerNode {
       other_images_.push_back(std::make_unique<ImageSubscription>(name));
       other_images_.back()->Subscribe(
           node_, private_node_, sensor.cameras[camera].image_topic, kImageQueue, add,
-          [this, camera](int64_t t_ns) { return schedule_.IsDue(camera, t_ns); });
+          [this, camera](int64_t t_ns) { return schedule_.IsNeeded(camera, t_ns); });
     }
     if (sensor.depth && Traits::kUsesDepth) {
       depth_subscriber_ = node_.subscribe<sensor_msgs::Image>(
@@ -263,7 +263,7 @@ class TrackerNode {
 
   const Config config_;
   Stage stage_;
-  MatchSchedule schedule_;
+  ImageSchedule schedule_;
   bool show_track_ = true;
   DropWarner drop_warner_;
   ConstantStamp image_stamps_;

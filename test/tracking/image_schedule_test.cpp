@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int64_t kMillisecond = 1'000'000;
+constexpr int64_t kScheduleMillisecond = 1'000'000;
 
 // Returns the timestamps [ms] of the images that are needed of two further cameras; of camera 0 all
 // are.
@@ -16,9 +16,9 @@ std::vector<int> Needed(double publish_rate, const std::vector<int>& stamps) {
   ImageSchedule schedule(publish_rate);
   std::vector<int> needed;
   for (const int t : stamps) {
-    EXPECT_TRUE(schedule.IsNeeded(0, t * kMillisecond));
-    const bool is_needed = schedule.IsNeeded(1, t * kMillisecond);
-    EXPECT_EQ(schedule.IsNeeded(2, t * kMillisecond), is_needed);
+    EXPECT_TRUE(schedule.IsNeeded(0, t * kScheduleMillisecond));
+    const bool is_needed = schedule.IsNeeded(1, t * kScheduleMillisecond);
+    EXPECT_EQ(schedule.IsNeeded(2, t * kScheduleMillisecond), is_needed);
     if (is_needed) needed.push_back(t);
   }
   return needed;

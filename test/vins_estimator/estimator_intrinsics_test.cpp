@@ -58,7 +58,7 @@ TEST(EstimatorIntrinsicsTest, AreFoundInFlight) {
     spoiled.sensor.estimate_intrinsics = true;
     const EstimatedFlight flight = Fly(spoiled);
     found += testing::AbsoluteError(flight) / kSeeds;
-    ExpectIntrinsics(flight.outputs.back().calibration.camera,
+    ExpectIntrinsics(flight.outputs.back().calibration.cameras[0].parameters,
                      simulated.sensor.cameras[0].parameters);
   }
   EXPECT_LT(found, 1.3 * right);

@@ -121,7 +121,7 @@ TEST(EstimatorTest, LearnsTheRotationOfTheCamera) {
   const EstimatedFlight flight = testing::Estimate(simulated);
   EXPECT_TRUE(flight.restarts.empty());
   ASSERT_GT(flight.truth.size(), 200u);
-  const Eigen::Quaterniond& learned = flight.outputs.back().calibration.T_B_C.rotation;
+  const Eigen::Quaterniond& learned = flight.outputs.back().calibration.cameras[0].T_B_C.rotation;
   EXPECT_LT(learned.angularDistance(truth), 0.1 * M_PI / 180);
   EXPECT_LT(testing::AbsoluteError(flight), 0.003 * flight.path);
 }

@@ -125,7 +125,7 @@ TEST(ExtrinsicCalibratorTest, EstimatorStartsWithoutAnyCameraPose) {
     EXPECT_GT(i, 80u);
     estimate.col(poses) = output.state.position();
     truth.col(poses++) = flight.truth[i].position();
-    T_B_C = output.calibration.T_B_C;
+    T_B_C = output.calibration.cameras[0].T_B_C;
   }
   ASSERT_GT(poses, 100);
   EXPECT_LT(AbsoluteError(estimate.leftCols(poses), truth.leftCols(poses)), 0.03);
@@ -148,9 +148,9 @@ TEST(ExtrinsicCalibratorTest, TheRotationSurvivesALoss) {
     EXPECT_EQ(output.reason.find("calibrating"), std::string::npos) << output.reason;
   }
   ASSERT_TRUE(output.has_pose) << output.reason;
-  EXPECT_LT(
-      output.calibration.T_B_C.rotation.angularDistance(flight.sensor.cameras[0].T_B_C.rotation),
-      2.5 * kDegree);
+  EXPECT_LT(output.calibration.cameras[0].T_B_C.rotation.angularDistance(
+                flight.sensor.cameras[0].T_B_C.rotation),
+            2.5 * kDegree);
   estimator.Reset();
   output = estimator.Process(flight.frames[i]);
   output = estimator.Process(flight.frames[i + 1]);

@@ -63,8 +63,6 @@ struct PointObservation {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // d(xy)/dt [1/s]; zero when new
   int camera = 0;
   std::optional<double> depth = {};  // measured, along the camera's optical axis [m]
-  // Set inside the estimator only: `xy` of the observation in camera 1.
-  std::optional<Eigen::Vector2d> right = {};
 };
 
 // All corners that the cameras observe at one time: those of camera 0 come first, then those of
@@ -73,13 +71,6 @@ struct PointObservation {
 struct PointFrame {
   int64_t t_ns = 0;
   std::vector<PointObservation> points;
-};
-
-// Set inside the estimator only: observation of a line in camera 1.
-struct RightSegment {
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();
-  Eigen::Vector2d end = Eigen::Vector2d::Zero();
-  Eigen::Vector2d deviation = Eigen::Vector2d::Zero();
 };
 
 // Observation of a line segment in one image. The endpoints need not correspond to those in other
@@ -91,7 +82,6 @@ struct LineObservation {
   int camera = 0;
   // Standard deviations of start and end across the line (normalized); zero: the noise of lines.
   Eigen::Vector2d deviation = Eigen::Vector2d::Zero();
-  std::optional<RightSegment> right = {};
 };
 
 // All line segments that the cameras observe at one time, in the order of PointFrame. May be empty.

@@ -211,7 +211,7 @@ TEST(InitializerTest, CalibratesTheRotationOfTheCameraFirst) {
       Initializer initializer(ConfigFor(flight));
       const auto start = Feed(flight, &initializer);
       ASSERT_TRUE(start) << "seed " << seed << ": " << initializer.reason();
-      const Rigid3d& T_B_C = start->result.T_B_C[0];
+      const Rigid3d& T_B_C = start->result.T_B_C.front();
       EXPECT_LT(T_B_C.rotation.angularDistance(truth.sensor.cameras[0].T_B_C.rotation), 0.04)
           << "seed " << seed;
       EXPECT_EQ(T_B_C.translation, Eigen::Vector3d::Zero());

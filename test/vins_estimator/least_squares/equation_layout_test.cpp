@@ -65,7 +65,7 @@ TEST_F(EquationLayoutTest, TermsHaveTheirVariablesInOrderOfColumns) {
   EXPECT_EQ(seen.landmark_block, 4);
   ASSERT_EQ(seen.slot_count, 3);
   EXPECT_THAT((std::array{seen.slots[0].block, seen.slots[1].block, seen.slots[2].block}),
-              ElementsAre(3, 1, 0));
+              ElementsAre(3, 2, 1));
   EXPECT_THAT((std::array{seen.slots[0].dense_offset, seen.slots[1].dense_offset,
                           seen.slots[2].dense_offset}),
               ElementsAre(0, 1, 13));

@@ -110,7 +110,8 @@ TEST(EstimatorRig, ACameraThatLooksBackHelps) {
 }
 
 TEST(EstimatorRig, CarriesOnWhileTheFirstCameraIsBlind) {
-  const double front = MeanRigError([](uint64_t seed) { return WithBlindFront(FrontFlight(seed)); });
+  const double front =
+      MeanRigError([](uint64_t seed) { return WithBlindFront(FrontFlight(seed)); });
   const double both = MeanRigError(
       [](uint64_t seed) { return WithBlindFront(WithBackCamera(FrontFlight(seed), seed)); });
   EXPECT_LT(both, 0.8 * front);

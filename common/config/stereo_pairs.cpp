@@ -17,7 +17,8 @@ double SharedView(const CameraModel& a, const CameraModel& b, const Eigen::Quate
   const Eigen::Vector2d size(b.parameters().width, b.parameters().height);
   int shared = 0;
   for (int i = 0; i < kColumns * kRows; ++i) {
-    const Eigen::Vector2d share((i % kColumns + 0.5) / kColumns, (i / kColumns + 0.5) / kRows);
+    const int column = i % kColumns, row = i / kColumns;
+    const Eigen::Vector2d share((column + 0.5) / kColumns, (row + 0.5) / kRows);
     const auto xy = b.Unproject(share.cwiseProduct(size));
     const auto pixel = xy ? a.Project(R_A_B * xy->homogeneous()) : std::nullopt;
     shared += pixel && a.IsInImage(*pixel);

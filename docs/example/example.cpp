@@ -23,7 +23,7 @@ int main(int, char** argv) {
     imu.accel.z() = config.sensor.gravity_norm;
     tracker.AddImu(imu);
     estimator.AddImu(imu);
-    if (t_ns % 50'000'000 == 0) tracker.AddImage({t_ns, gray.clone()});
+    if (t_ns % 50'000'000 == 0) tracker.AddImage(0, {t_ns, gray.clone()});
     while (auto tracked = tracker.Pop()) estimator.AddPoints(tracked->features);
     while (auto estimate = estimator.Pop()) {
       if (!estimate->output.has_pose) continue;

@@ -33,7 +33,7 @@ struct Segment {
 PosedLineObservation See(const Segment& segment, const Rigid3d& T_W_C, double noise = 0,
                          simulator::Random* random = nullptr) {
   const auto see = [&](const Vector3d& p_W) -> Vector2d {
-    const Vector2d xy = (T_W_C.Inverse() * p_W).hnormalized();
+    Vector2d xy = (T_W_C.Inverse() * p_W).hnormalized();
     if (random == nullptr) return xy;
     const double u = random->Normal(), v = random->Normal();
     return xy + noise * Vector2d(u, v);

@@ -170,8 +170,8 @@ TEST(ManhattanFrame, StaysAbsentAmongVerticalLines) {
 TEST(ManhattanFrame, NeedsSeveralLines) {
   ManhattanFrame frame;
   for (int i = 0; i < 200; ++i) {
-    std::vector<LineDirection> lines;
-    for (int id = 0; id < 4; ++id) lines.push_back({id, Horizontal(0.2), 0.1 * kOneDegree});
+    std::vector<LineDirection> lines(4, {0, Horizontal(0.2), 0.1 * kOneDegree});
+    for (int id = 0; id < 4; ++id) lines[id].id = id;
     frame.Update(ToNanoseconds(0.1 * i), lines);
   }
   EXPECT_FALSE(frame.R_W_M());

@@ -24,7 +24,7 @@ class GyroPredictor {
   // Returns whether the samples reach the time of the image.
   bool Covers(int64_t t_image_ns) const;
 
-  // Returns R_C1_C0, which rotates directions from the camera at t0 to the camera at t1. Returns
+  // Returns the rotation that takes directions in the camera at t0 to the camera at t1. Returns
   // nullopt if the samples do not cover the interval or have a gap in it.
   std::optional<Eigen::Quaterniond> Rotation(int64_t t0_ns, int64_t t1_ns) const;
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 namespace plm_vins {
+
 FeatureDoor::FeatureDoor(const SensorConfig& sensor)
     : cameras_(static_cast<int>(sensor.cameras.size())), has_depth_(sensor.depth.has_value()) {}
 

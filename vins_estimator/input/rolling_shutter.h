@@ -23,8 +23,8 @@ namespace plm_vins {
 // computed from the end's distance to the line in the previous image.
 //
 // Features that are new in an image have no velocity and are dropped: they would be off by pixels.
-// Those of a landmark that a camera with a lower number observes as well, in nearly the same row,
-// take over its velocity.
+// If a camera with a lower number observes the same landmark in nearly the same row, a feature has
+// the velocity of that observation.
 class RollingShutter {
  public:
   explicit RollingShutter(const std::vector<CameraSensor>& cameras);

@@ -12,10 +12,10 @@
 #include "common/streams/stream_rhythm.h"
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/imu/imu_noise_meter.h"
-#include "vins_estimator/initialization/rotation_check.h"
 #include "vins_estimator/input/repeated_image_detector.h"
 #include "vins_estimator/monitoring/contradiction_report.h"
 #include "vins_estimator/monitoring/sensor_report.h"
+#include "vins_estimator/rotation_calibration/rotation_check.h"
 #include "vins_estimator/uncertainty/imu_noise_estimate.h"
 
 namespace plm_vins {

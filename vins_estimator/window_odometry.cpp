@@ -8,11 +8,11 @@
 
 #include "common/append.h"
 #include "common/stopwatch.h"
-#include "vins_estimator/least_squares/normal_equations.h"
+#include "vins_estimator/equations/normal_equations.h"
 #include "vins_estimator/map/recalibration.h"
-#include "vins_estimator/optimization/window_solver.h"
 #include "vins_estimator/problem/placement_problem.h"
 #include "vins_estimator/problem/problem_builder.h"
+#include "vins_estimator/solver/window_solver.h"
 #include "vins_estimator/state/derived_covariance.h"
 #include "vins_estimator/uncertainty/length_evidence.h"
 #include "vins_estimator/uncertainty/placed_covariance.h"

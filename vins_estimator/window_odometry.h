@@ -38,8 +38,9 @@ class WindowOdometry {
     std::optional<Matrix15d> covariance;  // covariance of `newest`
     std::optional<Failure> failure;       // if set, tracking is lost: reinitialize
     EstimatorOutput output;               // only counts and timings if tracking is lost
-    // Points in the middle frame of the window, whose pose is known best; each keyframe once.
-    std::vector<PixelResidual> residuals;
+    // Points in the middle frame of the window, whose pose is known best; each keyframe once. By
+    // camera, or empty.
+    std::vector<std::vector<PixelResidual>> residuals;
   };
 
   // Fills the window with the initial frames and optimizes it.
@@ -111,7 +112,7 @@ class WindowOdometry {
   bool DoubtsNewestInterval();
   EstimatorCounts CountLandmarks() const;
   EstimatorCounts LearnFromWindow();
-  std::vector<PixelResidual> MiddleResiduals() const;
+  std::vector<std::vector<PixelResidual>> MiddleResiduals() const;
   PointMap::Fit FitOfNewest(int64_t keyframe_ns) const;
   DepartedLandmarks SlideWindow(bool keep_second_newest);
   DepartedLandmarks SlideOldest();

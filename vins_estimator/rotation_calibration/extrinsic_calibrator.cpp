@@ -16,7 +16,8 @@ std::optional<Eigen::Quaterniond> ExtrinsicCalibrator::Add(
   const int64_t newest_ns = frames.back().t_ns;
   if (last_ns_ && ToSeconds(newest_ns - *last_ns_) < kPairStride - 1e-3) return std::nullopt;
   last_ns_ = newest_ns;
-  const std::optional<RotationPair> pair = MeasureRotationPair(frames, imu_noise_, noise_, reason);
+  const std::optional<RotationPair> pair =
+      MeasureRotationPair(frames, 0, imu_noise_, noise_, reason);
   if (pair) pairs_.push_back(*pair);
   if (pairs_.size() > kMaxRotationPairs) pairs_.erase(pairs_.begin());
   auto R_B_C = CalibrateExtrinsicRotation(pairs_, ExtrinsicRotationOptions(), reason);

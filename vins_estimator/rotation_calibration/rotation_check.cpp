@@ -46,26 +46,29 @@ std::string Describe(const RotationFit& fit) {
 
 }  // namespace
 
-RotationCheck::RotationCheck(const SensorConfig& sensor, double point_noise_px)
+RotationCheck::RotationCheck(const SensorConfig& sensor, int camera, double point_noise_px)
     : sensor_(sensor),
-      noise_(point_noise_px / CameraModel::Create(sensor.cameras[0].parameters)->FocalLength()) {}
+      camera_(camera),
+      noise_(point_noise_px /
+             CameraModel::Create(sensor.cameras[camera].parameters)->FocalLength()) {}
 
 void RotationCheck::Add(const FrameMeasurement& measurement, bool in_doubt) {
   if (!frames_.empty() && LeaveGap(measurement.imu)) frames_.clear();
   frames_.push_back(measurement);
   frames_.back().lines.reset();
   while (ToSeconds(measurement.t_ns - frames_.front().t_ns) > kHistory) frames_.pop_front();
+  if (!Observes(measurement.points, camera_)) return;
   const double stride = (in_doubt ? kStrideInDoubt : kStride) - 1e-3;
   if (measured_ns_ && ToSeconds(measurement.t_ns - *measured_ns_) < stride) return;
   measured_ns_ = measurement.t_ns;
   std::string reason;
-  const auto pair = MeasureRotationPair(frames_, sensor_.imu_noise, noise_, &reason);
+  const auto pair = MeasureRotationPair(frames_, camera_, sensor_.imu_noise, noise_, &reason);
   if (!pair) return;
   pairs_.push_back(*pair);
   if (pairs_.size() > kMaxPairs) pairs_.erase(pairs_.begin());
   const bool is_known =
       sensor_.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation;
-  if (++measured_ % kJudgedPairs == 0 && is_known) Judge(sensor_.cameras[0].T_B_C.rotation);
+  if (++measured_ % kJudgedPairs == 0 && is_known) Judge(sensor_.cameras[camera_].T_B_C.rotation);
 }
 
 void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {

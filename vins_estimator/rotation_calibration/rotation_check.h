@@ -13,13 +13,13 @@
 
 namespace plm_vins {
 
-// Compares the rotations of the camera with those of the gyroscope, which needs no estimate, and
+// Compares the rotations of a camera with those of the gyroscope, which needs no estimate, and
 // tells which part of the calibration is wrong. Pairs of images are rare while nothing is in doubt,
 // as their relative pose takes time.
 class RotationCheck {
  public:
   // `point_noise_px` is the standard deviation of a corner.
-  RotationCheck(const SensorConfig& sensor, double point_noise_px);
+  RotationCheck(const SensorConfig& sensor, int camera, double point_noise_px);
 
   // Adds the next image.
   void Add(const FrameMeasurement& measurement, bool in_doubt);
@@ -36,6 +36,7 @@ class RotationCheck {
   bool IsRefined(const RotationFit& fit) const;
 
   const SensorConfig sensor_;
+  const int camera_;
   const double noise_;  // of a normalized coordinate
   std::deque<FrameMeasurement> frames_;
   std::vector<RotationPair> pairs_;     // oldest first

@@ -34,9 +34,10 @@ Eigen::Quaterniond AlignRays(const std::vector<Correspondence>& correspondences)
 }
 
 // Returns the last frame that is old enough to form a pair with the newest one.
-std::optional<size_t> FindPartner(const std::deque<FrameMeasurement>& frames) {
+std::optional<size_t> FindPartner(const std::deque<FrameMeasurement>& frames, int camera) {
   for (size_t i = frames.size(); i-- > 0;) {
-    if (ToSeconds(frames.back().t_ns - frames[i].t_ns) > kPairDuration - 1e-3) return i;
+    const bool is_old = ToSeconds(frames.back().t_ns - frames[i].t_ns) > kPairDuration - 1e-3;
+    if (is_old && Observes(frames[i].points, camera)) return i;
   }
   return std::nullopt;
 }
@@ -52,15 +53,15 @@ Eigen::Vector3d RateChange(const std::vector<ImuSample>& imu) {
 }  // namespace
 
 std::optional<RotationPair> MeasureRotationPair(const std::deque<FrameMeasurement>& frames,
-                                                const ImuNoise& imu_noise, double noise,
+                                                int camera, const ImuNoise& imu_noise, double noise,
                                                 std::string* reason) {
-  const std::optional<size_t> partner = FindPartner(frames);
+  const std::optional<size_t> partner = FindPartner(frames, camera);
   if (!partner) return std::nullopt;
   const std::vector<FrameMeasurement> ends = JoinFrames(frames, {*partner, frames.size() - 1});
   Preintegration imu(imu_noise, ImuBias{});
   for (const ImuSample& sample : ends[1].imu) imu.Append(sample);
-  const auto correspondences =
-      FindCorrespondences(OfCamera(0, CollectTracks({&ends[0].points, &ends[1].points})), 0, 1);
+  const auto correspondences = FindCorrespondences(
+      OfCamera(camera, CollectTracks({&ends[0].points, &ends[1].points})), 0, 1);
   const auto pose =
       EstimateRelativePose(correspondences, AlignRays(correspondences), noise, reason);
   if (!pose || Eigen::AngleAxisd(pose->R_now_then).angle() < kMinTurn) return std::nullopt;

@@ -11,12 +11,12 @@
 
 namespace plm_vins {
 
-// Measures the rotation of the first camera at the newest of `frames`, which must be contiguous,
-// from the last one that is 0.3 s older. `noise` is the standard deviation of a normalized
-// coordinate. Returns nullopt, where it can with the reason, if the rotation is too small or the
-// points do not determine it.
+// Measures the rotation of a camera at the newest of `frames`, which must be contiguous, from the
+// last one that is 0.3 s older and in which it observes anything. `noise` is the standard deviation
+// of a normalized coordinate. Returns nullopt, where it can with the reason, if the rotation is too
+// small or the points do not determine it.
 std::optional<RotationPair> MeasureRotationPair(const std::deque<FrameMeasurement>& frames,
-                                                const ImuNoise& imu_noise, double noise,
+                                                int camera, const ImuNoise& imu_noise, double noise,
                                                 std::string* reason);
 
 }  // namespace plm_vins

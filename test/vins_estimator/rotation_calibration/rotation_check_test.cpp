@@ -24,7 +24,7 @@ SimulatedFlight Fly(uint64_t seed, simulator::Motion motion = simulator::Motion:
 }
 
 std::string Check(const SimulatedFlight& flight) {
-  RotationCheck check(flight.sensor, 0.5);
+  RotationCheck check(flight.sensor, 0, 0.5);
   for (const FrameMeasurement& frame : flight.frames) check.Add(frame, /*in_doubt=*/true);
   return check.finding();
 }

@@ -142,16 +142,14 @@ void PoseGraphNode::Subscribe() {
 void PoseGraphNode::SubscribeToCameras() {
   for (const int camera : input_.cameras()) {
     const std::string number = camera == 0 ? "" : std::to_string(camera);
-    const boost::function<void(const sensor_msgs::CameraInfo&)> add_camera =
-        [this, camera](const sensor_msgs::CameraInfo& message) {
-          TakeIn([&] { AddCamera(camera, message); });
-        };
-    const boost::function<void(const nav_msgs::Odometry&)> add_extrinsics =
-        [this, camera](const nav_msgs::Odometry& message) {
-          TakeIn([&] { AddExtrinsics(camera, message); });
-        };
-    subscribers_.push_back(Receive(kEstimator + ("camera_info" + number), add_camera));
-    subscribers_.push_back(Receive(kEstimator + ("extrinsic" + number), add_extrinsics));
+    const boost::function<void(const sensor_msgs::CameraInfo&)> refine =
+        [this, camera](const auto& message) { TakeIn([&] { input_.AddCamera(camera, message); }); };
+    const boost::function<void(const nav_msgs::Odometry&)> move = [this,
+                                                                   camera](const auto& message) {
+      TakeIn([&] { input_.AddExtrinsics(camera, message); });
+    };
+    subscribers_.push_back(Receive(kEstimator + ("camera_info" + number), refine));
+    subscribers_.push_back(Receive(kEstimator + ("extrinsic" + number), move));
     const std::string name = camera == 0 ? "images" : "camera" + number + "_images";
     image_subscriptions_.push_back(std::make_unique<ImageSubscription>(name));
     image_subscriptions_.back()->Subscribe(receiver_, private_node_,
@@ -165,15 +163,6 @@ void PoseGraphNode::SubscribeToCameras() {
 void PoseGraphNode::AddImage(int camera, const std::optional<ImageSample>& image) {
   if (image) input_.AddImage(camera, *image);
   PassOn();
-}
-
-void PoseGraphNode::AddCamera(int camera, const sensor_msgs::CameraInfo& message) {
-  input_.AddCamera(camera, message);
-  PassOn();
-}
-
-void PoseGraphNode::AddExtrinsics(int camera, const nav_msgs::Odometry& message) {
-  input_.AddExtrinsics(camera, message);
 }
 
 void PoseGraphNode::AddPose(const OdometryEvent& event) {

@@ -82,8 +82,6 @@ class PoseGraphNode {
 
   // These are called with input_mutex_ held.
   void AddImage(int camera, const std::optional<ImageSample>& image);
-  void AddCamera(int camera, const sensor_msgs::CameraInfo& message);
-  void AddExtrinsics(int camera, const nav_msgs::Odometry& message);
   void AddPose(const OdometryEvent& event);
   void AddPoints(const sensor_msgs::PointCloud& message);
   void AddLines(const sensor_msgs::PointCloud& message);
@@ -161,7 +159,7 @@ class PoseGraphNode {
   // Declared last, so that they are destroyed first and no callback runs during destruction.
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Subscriber> subscribers_;
-  // Of the described cameras; that of camera 0 comes first.
+  // One for each described camera; that of camera 0 comes first.
   std::vector<std::unique_ptr<ImageSubscription>> image_subscriptions_;
   ros::WallTimer diagnostics_timer_;
 };

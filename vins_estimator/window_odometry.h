@@ -19,9 +19,9 @@
 #include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/state/estimator_output.h"
 #include "vins_estimator/uncertainty/depth_evidence.h"
+#include "vins_estimator/uncertainty/feature_noise.h"
 #include "vins_estimator/uncertainty/imu_noise_learning.h"
 #include "vins_estimator/uncertainty/rig_monitor.h"
-#include "vins_estimator/uncertainty/view_noise.h"
 
 namespace plm_vins {
 
@@ -131,7 +131,7 @@ class WindowOdometry {
   DepthEvidence depth_evidence_;
   WindowEstimate estimate_;
   LineStructure structure_;
-  ViewNoise noise_;
+  FeatureNoise noise_;
   RigMonitor rig_monitor_;
   DepthFaults depth_faults_;
   ImuNoiseLearning imu_noise_;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulates flights with a pair of cameras ("stereo"), with these, a camera that looks back and depth
-images ("rig"), or with one camera and depth images ("depth")."""
+"""Simulates flights with a pair of cameras ("stereo"), with these, a camera that looks back and
+depth images ("rig"), or with one camera and depth images ("depth")."""
 
 import pathlib
 import re

@@ -53,8 +53,8 @@ class Views:
         self._positions, self._axes = positions[::4], axes[::4]
 
     def find(self, places, least_parallax):
-        """Returns the index of the first pose that views each place (n, 3); -1 if its rays differ by
-        less than `least_parallax`."""
+        """Returns the index of the first pose that views each place (n, 3); -1 if its rays differ
+        by less than `least_parallax`."""
         return np.array([self._first(place, least_parallax) for place in places], dtype=int)
 
     def _first(self, place, least_parallax):

@@ -51,6 +51,7 @@ LINE_TRACKER_LAYERS = {
 }
 ESTIMATOR_LAYERS = {
     "state": "",
+    "failure": "state",
     "geometry": "state",
     "imu": "state",
     "input": "imu",
@@ -58,15 +59,18 @@ ESTIMATOR_LAYERS = {
     "factors": "state geometry imu",
     "monitoring": "state imu map factors",
     "bridging": "state imu factors",
-    "least_squares": "state geometry factors",
-    "optimization": "factors least_squares",
-    "problem": "state geometry imu map factors least_squares",
-    "uncertainty": "state geometry imu monitoring map factors least_squares problem",
-    "marginalization": "state map least_squares problem",
+    "equations": "state geometry factors",
+    "solver": "factors equations",
+    "problem": "state geometry imu map factors equations",
+    "uncertainty": "state geometry imu monitoring map factors equations problem",
+    "marginalization": "state map equations problem",
     "manhattan": "state geometry map",
     "recall": "state geometry map",
     "merging": "state geometry map manhattan recall",
-    "initialization": "state geometry imu factors least_squares optimization uncertainty",
+    "structure_from_motion": "state geometry",
+    "rotation_calibration": "imu structure_from_motion",
+    "initialization": "state geometry imu factors equations solver uncertainty "
+                      "structure_from_motion rotation_calibration",
     "output": "state",
 }
 POSE_GRAPH_LAYERS = {
@@ -122,8 +126,8 @@ LAYERS = {
     **layers_of_part("pose_graph", POSE_GRAPH_LAYERS, COMMON),
     **layers_of_part("map_bundle", {}, COMMON | {"pose_graph"} | inside(
         "pose_graph", ["geometry", "keyframes", "map", "verification"]) | inside(
-            "vins_estimator", ["state", "geometry", "imu", "factors", "least_squares",
-                               "optimization"])),
+            "vins_estimator", ["state", "geometry", "imu", "factors", "equations",
+                               "solver"])),
     **layers_of_part("offline", OFFLINE_LAYERS,
                      TRACKING | TRACKERS | ESTIMATOR_OUTPUT
                      | {"vins_estimator", "pose_graph", "map_bundle"}

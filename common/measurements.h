@@ -73,6 +73,11 @@ struct PointFrame {
   std::vector<PointObservation> points;
 };
 
+inline bool Observes(const PointFrame& frame, int camera) {
+  return std::any_of(frame.points.begin(), frame.points.end(),
+                     [camera](const PointObservation& point) { return point.camera == camera; });
+}
+
 // Observation of a line segment in one image. The endpoints need not correspond to those in other
 // images: only the line through them is measured.
 struct LineObservation {

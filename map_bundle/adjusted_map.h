@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <vector>
 
 #include "common/geometry/rigid3.h"
 #include "map_bundle/landmark_tracks.h"
@@ -12,7 +13,7 @@ namespace plm_vins {
 
 // Result of the map bundle adjustment.
 struct AdjustedMap {
-  Rigid3d T_B_C;                               // shared by all adjusted keyframes
+  std::vector<Rigid3d> T_B_C{Rigid3d()};       // by camera; shared by all adjusted keyframes
   std::map<int, Rigid3d> T_M_B;                // adjusted keyframes only, by number
   std::map<LandmarkKey, Eigen::Vector3d> p_M;  // [m]
 };

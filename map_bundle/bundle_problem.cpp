@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include "vins_estimator/equations/chain_variables.h"
+#include "vins_estimator/equations/window_problem.h"
 #include "vins_estimator/factors/bundle_priors.h"
 #include "vins_estimator/factors/depth_factor.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
 #include "vins_estimator/geometry/point_in_host.h"
-#include "vins_estimator/least_squares/chain_variables.h"
-#include "vins_estimator/least_squares/window_problem.h"
-#include "vins_estimator/optimization/ceres_solver.h"
+#include "vins_estimator/solver/ceres_solver.h"
 
 namespace plm_vins {
 namespace {

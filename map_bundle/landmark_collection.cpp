@@ -35,14 +35,14 @@ struct Observations {
 
 using ObservationsByKey = std::map<LandmarkKey, Observations>;
 
-// Adds what the map keeps, of the first camera.
+// Adds what the map keeps.
 void AddCorners(const KeyframeMap& map, int number, ObservationsByKey* by_key) {
   const Keyframe& keyframe = map.keyframes[number];
   for (const DescribedCorner& corner : keyframe.corners) {
     if (corner.track < 0) continue;
     Observations& observations = (*by_key)[{keyframe.world, corner.track}];
     if (corner.p_O) observations.p_M = map.T_M_O(number) * corner.p_O->cast<double>();
-    observations.Add({number, 0, corner.xy.cast<double>()});
+    observations.Add({number, corner.camera, corner.xy.cast<double>()});
   }
 }
 

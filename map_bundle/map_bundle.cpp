@@ -53,10 +53,6 @@ void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odome
   keyframe.noise = odometry.imu_noise;
   keyframe.stationary = odometry.stationary;
   keyframe.observations = OthersOf(points, odometry.points);
-  T_B_C_.clear();
-  for (const CameraCalibration& camera : odometry.calibration.cameras) {
-    T_B_C_.push_back(camera.T_B_C);
-  }
 }
 
 void MapBundle::AddLoops(const KeyframeMap& map, const LoopClosure& closure) {
@@ -69,17 +65,19 @@ void MapBundle::AddPlace(const KeyframeMap& map, const RecognizedPlace& place, b
   const int newest = map.graph.size() - 1;
   Place& added = places_[{newest, place.earlier}];
   added.counts = counts;
-  const auto add = [&](const std::vector<SeenPoint>& seen, int of, int by) {
+  const auto add = [&](const std::vector<SeenPoint>& seen, int of, const MapImage& by) {
     for (const SeenPoint& point : seen) {
       LandmarkTrack::Observation observation;
-      observation.keyframe = by;
+      observation.keyframe = by.keyframe;
+      observation.camera = by.camera;
       observation.xy = point.xy;
       observation.again = true;
       added.observations.push_back({{map.keyframes[of].world, point.track}, observation});
     }
   };
-  add(place.observations.of_earlier, place.earlier, newest);
-  add(place.observations.of_later, newest, place.earlier);
+  const LoopObservations& seen = place.observations;
+  add(seen.of_earlier, place.earlier, {newest, seen.later_camera});
+  add(seen.of_later, newest, {place.earlier, seen.earlier_camera});
 }
 
 void MapBundle::SetCounts(int a, int b, bool counts) {
@@ -103,14 +101,12 @@ std::vector<Reobservation> MapBundle::Observations() const {
 BundleState MapBundle::StateOf(const KeyframeMap& map) const {
   const std::vector<int> numbers = map.NumbersInMap();
   BundleState bundle;
-  bundle.T_B_C = T_B_C_;
-  bundle.T_B_C.resize(std::max<size_t>(1, T_B_C_.size()));
-  bundle.T_B_C.front() = map.keyframes.back().T_B_C;
+  bundle.T_B_C = map.keyframes.back().T_B_C;
   for (const int number : numbers) {
     BundleKeyframe& member = bundle.keyframes[number];
     const auto of_this_run = keyframes_.find(number);
     if (of_this_run == keyframes_.end()) {  // keyframe of the loaded map: its camera pose is fixed
-      member.state.SetPose(map.T_M_C(number) * bundle.T_B_C.front().Inverse());
+      member.state.SetPose(map.T_M_C({number, 0}) * bundle.T_B_C.front().Inverse());
       continue;
     }
     member = of_this_run->second;
@@ -161,7 +157,7 @@ std::optional<AdjustedMap> MapBundle::Adjust(const KeyframeMap& map,
   if (summary_.rounds == 0) return std::nullopt;
 
   AdjustedMap adjusted;
-  adjusted.T_B_C = bundle.T_B_C.front();
+  adjusted.T_B_C = bundle.T_B_C;
   for (const auto& [number, keyframe] : bundle.keyframes) {
     if (keyframe.moves()) adjusted.T_M_B[number] = keyframe.state.T_W_B();
   }

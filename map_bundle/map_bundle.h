@@ -86,7 +86,6 @@ class MapBundle {
 
   MapBundleOptions options_;
   ImuHistory imu_;
-  std::vector<Rigid3d> T_B_C_;                   // by camera, at the newest keyframe
   std::map<int, BundleKeyframe> keyframes_;      // keyframes of this run, by number; states in O
   std::map<std::pair<int, int>, Place> places_;  // by (later, earlier) keyframe number
   MapBundleSummary summary_;

@@ -2,6 +2,7 @@
 #include "pose_graph/loop_closer.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "common/append.h"
@@ -34,16 +35,24 @@ bool Take(const LoopCandidate& loop, std::vector<LevelEdge>* edges) {
 
 }  // namespace
 
-LoopCloser::LoopCloser(const LoopCloserOptions& options, std::shared_ptr<const CameraModel> camera)
+LoopCloser::LoopCloser(const LoopCloserOptions& options, const CameraModels& cameras)
     : options_(options),
-      camera_(std::move(camera)),
+      cameras_(cameras),
       recognition_(options.recognition),
-      verification_(options.verification, camera_),
+      verification_(options.verification, cameras),
       acceptance_(options.acceptance),
       thinning_(options.thinning),
       place_(options.odometry) {}
 
 void LoopCloser::SetMap(KeyframeMap map) {
+  const auto has_more = [this](const Keyframe& keyframe) {
+    return keyframe.T_B_C.size() > cameras_.size();
+  };
+  if (std::any_of(map.keyframes.begin(), map.keyframes.end(), has_more)) {
+    throw std::runtime_error(
+        "the map was recorded with more cameras than num_of_cam; use the "
+        "configuration of all of them");
+  }
   map_ = std::move(map);
   map_.graph.HoldFrame();
   place_.SetMap(map_);
@@ -68,7 +77,7 @@ LoopClosure LoopCloser::Add(const OdometryFrame& frame) {
     closure.fix = Fix();
     return closure;
   }
-  Keyframe keyframe = MakeKeyframe(options_.corners, *camera_, frame);
+  Keyframe keyframe = MakeKeyframe(options_.corners, cameras_, frame);
   keyframe.world = world_;
   keyframe.path = path_;
   return Add(std::move(keyframe));
@@ -145,7 +154,9 @@ void LoopCloser::LookForLoops(LoopClosure* closure) {
 
 LoopCandidate LoopCloser::Examine(const PlaceCandidate& place, LoopObservations* observations) {
   LoopCandidate candidate;
-  candidate.earlier = place.keyframe;
+  candidate.earlier = place.earlier.keyframe;
+  candidate.earlier_camera = place.earlier.camera;
+  candidate.later_camera = place.camera;
   candidate.later = static_cast<int>(map_.keyframes.size()) - 1;
   candidate.earlier_ns = map_.keyframes[candidate.earlier].t_ns;
   candidate.later_ns = map_.keyframes[candidate.later].t_ns;
@@ -156,17 +167,18 @@ LoopCandidate LoopCloser::Examine(const PlaceCandidate& place, LoopObservations*
   } else if (!place.repeated) {
     candidate.failed = LoopGate::kRepeated;
   } else {
-    *observations =
-        verification_.Verify(IslandOf(candidate.earlier), IslandOf(candidate.later), &candidate);
+    *observations = verification_.Verify(IslandOf(place.earlier),
+                                         IslandOf({candidate.later, place.camera}), &candidate);
   }
   return candidate;
 }
 
-Island LoopCloser::IslandOf(int number) const {
+Island LoopCloser::IslandOf(const MapImage& image) const {
   const std::vector<Keyframe>& keyframes = map_.keyframes;
   Island island;
-  island.keyframe = &keyframes[number];
-  for (const int i : NumbersAround(keyframes, number, options_.recognition.island_radius)) {
+  island.keyframe = &keyframes[image.keyframe];
+  island.camera = image.camera;
+  for (const int i : NumbersAround(keyframes, image.keyframe, options_.recognition.island_radius)) {
     island.all.push_back(&keyframes[i]);
   }
   return island;

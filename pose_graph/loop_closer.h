@@ -3,11 +3,10 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
-#include "common/camera/camera_model.h"
+#include "common/camera/camera_models.h"
 #include "pose_graph/description/corner_selection.h"
 #include "pose_graph/graph/pose_graph.h"
 #include "pose_graph/keyframes/keyframe.h"
@@ -26,7 +25,9 @@
 namespace plm_vins {
 
 struct LoopCloserOptions {
-  explicit LoopCloserOptions(const CameraModel& camera) : verification(camera.FocalLength()) {}
+  // Limits in pixels are those of camera 0.
+  explicit LoopCloserOptions(const CameraModels& cameras)
+      : verification(cameras.front()->FocalLength()) {}
 
   KeyframeSpacing spacing;
   // Denser keyframes while the pose in the map is unknown, to find it soon.
@@ -61,9 +62,10 @@ struct LoopClosure {
 // changed. One call for each image; synchronous and deterministic.
 class LoopCloser {
  public:
-  LoopCloser(const LoopCloserOptions& options, std::shared_ptr<const CameraModel> camera);
+  LoopCloser(const LoopCloserOptions& options, const CameraModels& cameras);
 
-  // Starts from a loaded map. Must be called before the first Add().
+  // Starts from a loaded map. Must be called before the first Add(). Throws std::runtime_error if
+  // the map's keyframes have more cameras.
   void SetMap(KeyframeMap map);
 
   // Processes the next image for which odometry has a pose.
@@ -80,7 +82,7 @@ class LoopCloser {
   void ConnectToPrevious(int number);
   void LookForLoops(LoopClosure* closure);
   LoopCandidate Examine(const PlaceCandidate& place, LoopObservations* observations);
-  Island IslandOf(int number) const;
+  Island IslandOf(const MapImage& image) const;
   void AddLoops(const std::vector<LoopCandidate*>& loops);
   // Optimizes the graph and marks the new loops that it rejects.
   void Optimize(const std::vector<LoopCandidate*>& loops, LoopClosure* closure);
@@ -91,7 +93,7 @@ class LoopCloser {
   std::optional<MapFix> Fix() const;
 
   LoopCloserOptions options_;
-  std::shared_ptr<const CameraModel> camera_;
+  CameraModels cameras_;
   PlaceRecognition recognition_;
   LoopVerification verification_;
   LoopAcceptance acceptance_;

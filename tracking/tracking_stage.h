@@ -25,7 +25,7 @@ namespace plm_vins {
 // The features of one image of each camera, with statistics and processing time.
 template <typename Tracker>
 struct Tracked {
-  ImageSample image;  // of camera 0
+  std::vector<ImageSample> images;  // by camera; only those that were searched have pixels
   typename Tracker::Features features;
   typename Tracker::Statistics statistics;  // of camera 0
   bool restart = false;                     // see ReadyImage
@@ -137,7 +137,10 @@ class TrackingStage {
     SortByCamera(&ObservationsOf(&frame.features));
     frame.tracking_ms = stopwatch.Milliseconds();
     frame.statistics = cameras_[0].tracker->statistics();
-    frame.image = std::move(next->images[0]);
+    frame.images.resize(next->images.size());
+    for (const TrackedCamera& camera : cameras_) {
+      frame.images[camera.number] = std::move(next->images[camera.number]);
+    }
     frame.restart = next->restart;
     frame.publish = next->publish;
     return frame;

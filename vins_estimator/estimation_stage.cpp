@@ -12,10 +12,10 @@
 #include "common/streams/stream_rhythm.h"
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/imu/imu_noise_meter.h"
-#include "vins_estimator/initialization/rotation_check.h"
 #include "vins_estimator/input/repeated_image_detector.h"
 #include "vins_estimator/monitoring/contradiction_report.h"
 #include "vins_estimator/monitoring/sensor_report.h"
+#include "vins_estimator/rotation_calibration/rotation_check.h"
 #include "vins_estimator/uncertainty/imu_noise_estimate.h"
 
 namespace plm_vins {
@@ -39,6 +39,17 @@ bool IsAtLimit(double density, double configured_density) {
   return density > 0.999 * kMostNoise * configured_density;
 }
 
+// Returns the first text of the cameras' monitors that is not empty, with the camera's number.
+template <typename Monitor>
+std::string FirstOf(const std::vector<Monitor>& monitors,
+                    const std::string& (Monitor::*text)() const) {
+  for (size_t i = 0; i < monitors.size(); ++i) {
+    const std::string& found = (monitors[i].*text)();
+    if (!found.empty()) return i == 0 ? found : Format("camera %zu: ", i) + found;
+  }
+  return "";
+}
+
 MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) {
   MeasurementSync::Options options;
   options.td = config.sensor.td;
@@ -51,12 +62,14 @@ MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) 
 }  // namespace
 
 struct EstimationStage::PerWorld {
-  explicit PerWorld(const Config& config)
-      : rotation_check(config.sensor, config.estimator.point_noise),
-        repeated_images(config.sensor.imu_noise) {}
+  explicit PerWorld(const Config& config) : repeated_images(config.sensor.imu_noise) {
+    for (int i = 0; i < static_cast<int>(config.sensor.cameras.size()); ++i) {
+      rotation_checks.emplace_back(config.sensor, i, config.estimator.point_noise);
+    }
+  }
 
-  RotationCheck rotation_check;
-  RecentTime doubt;  // with doubts or without a pose
+  std::vector<RotationCheck> rotation_checks;  // by camera
+  RecentTime doubt;                            // with doubts or without a pose
   FindingMemory input_faults;
   RepeatedImageDetector repeated_images;
   double least_speed = 0;  // lower bound at the newest image [m/s]
@@ -157,8 +170,8 @@ std::string EstimationStage::ImuContradiction() const {
   evidence.accel_noise_factor = meter.accel_density() / configured.accel_density;
   evidence.gyro_noise_factor = meter.gyro_density() / configured.gyro_density;
   using Rotations = ContradictionEvidence::Rotations;
-  if (world_->rotation_check.agrees()) evidence.rotations = Rotations::kAgree;
-  if (!world_->rotation_check.finding().empty()) evidence.rotations = Rotations::kExplained;
+  if (world_->rotation_checks.front().agrees()) evidence.rotations = Rotations::kAgree;
+  if (!FindRotationFault().empty()) evidence.rotations = Rotations::kExplained;
   return DescribeContradiction(evidence);
 }
 
@@ -179,11 +192,16 @@ void EstimationStage::CheckInput(int64_t t_ns) {
 std::string EstimationStage::FindInputFault() const {
   const std::string fault = input_check_.Finding(sync_.imu_door().bursts());
   if (!fault.empty()) return fault;
-  if (!world_->rotation_check.finding().empty()) return world_->rotation_check.finding();
+  const std::string rotation_fault = FindRotationFault();
+  if (!rotation_fault.empty()) return rotation_fault;
   if (!estimator_->SeesUnfeltMotion()) return "";
   return "the camera sees motion that the IMU does not feel: something that moves fills the view "
          "(a train, the deck of a ship), or the IMU does not belong to this camera; meanwhile the "
          "images move no estimate and start none";
+}
+
+std::string EstimationStage::FindRotationFault() const {
+  return FirstOf<RotationCheck>(world_->rotation_checks, &RotationCheck::finding);
 }
 
 void EstimationStage::CheckRotations(const FrameMeasurement& measurement,
@@ -191,13 +209,17 @@ void EstimationStage::CheckRotations(const FrameMeasurement& measurement,
   const bool in_doubt = !output.has_pose || output.contradicted || output.imu_noise_scale > 1;
   world_->doubt.Add(ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns),
                     in_doubt);
-  world_->rotation_check.Add(measurement, world_->doubt.IsLong());
+  for (RotationCheck& check : world_->rotation_checks) {
+    check.Add(measurement, world_->doubt.IsLong());
+  }
 }
 
-const std::string& EstimationStage::LensWarning() const { return estimator_->lens().warning(); }
+std::string EstimationStage::LensWarning() const {
+  return FirstOf<LensMonitor>(estimator_->lenses(), &LensMonitor::warning);
+}
 
 std::vector<ResidualRing> EstimationStage::ResidualRings() const {
-  return estimator_->lens().Rings();
+  return estimator_->lenses().front().Rings();
 }
 
 std::string EstimationStage::SensorFaults() const {

@@ -65,9 +65,10 @@ class EstimationStage {
   // timestamps. Empty if there is no such problem.
   std::string ImuContradiction() const;
 
-  // Describes a distortion model that does not fit the lens; empty if it fits (LensMonitor).
-  const std::string& LensWarning() const;
-  std::vector<ResidualRing> ResidualRings() const;
+  // Describes a distortion model that does not fit the lens of a camera; empty if all fit
+  // (LensMonitor).
+  std::string LensWarning() const;
+  std::vector<ResidualRing> ResidualRings() const;  // of camera 0
   // Returns what is wrong with the input as a whole, or was since the last restart.
   const Finding& InputFinding() const;
 
@@ -91,6 +92,7 @@ class EstimationStage {
   // Looks for what is wrong with the input, at every tenth call only.
   void CheckInput(int64_t t_ns);
   std::string FindInputFault() const;
+  std::string FindRotationFault() const;
   void StartOver(const std::string& reason);
   // Returns the configured noise, or the noise that the samples show if that is greater.
   ImuNoise NoiseOfSamples() const;

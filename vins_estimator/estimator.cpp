@@ -28,10 +28,11 @@ Estimator::PerWorld::PerWorld(const Config& config, const EstimatorOptions& opti
 }
 
 Estimator::Estimator(const Config& config)
-    : config_(config),
-      options_(config_),
-      world_(config_, options_),
-      lens_(config_.sensor.cameras[0].parameters) {}
+    : config_(config), options_(config_), world_(config_, options_) {
+  for (const CameraSensor& camera : config_.sensor.cameras) {
+    lenses_.emplace_back(camera.parameters);
+  }
+}
 
 void Estimator::Reset() { world_ = PerWorld(config_, options_); }
 
@@ -125,7 +126,7 @@ EstimatorOutput Estimator::Track(const FrameMeasurement& measurement,
   WindowOdometry::Tracked tracked =
       world_.odometry.Track(measurement, standstill, features_observed);
   world_.bridge.AddTracked(measurement.imu, tracked.newest, tracked.covariance);
-  lens_.Add(tracked.residuals);
+  for (size_t i = 0; i < tracked.residuals.size(); ++i) lenses_[i].Add(tracked.residuals[i]);
   if (tracked.failure) {
     tracked.output.status = EstimatorStatus::kLost;
     tracked.output.reason = tracked.failure->why;

@@ -35,7 +35,7 @@ class Estimator {
   void Reset();
 
   // Fit of the distortion model, over all world frames.
-  const LensMonitor& lens() const { return lens_; }
+  const std::vector<LensMonitor>& lenses() const { return lenses_; }  // by camera
 
   // Returns whether the images have shown motion for long that the IMU does not measure.
   bool SeesUnfeltMotion() const { return world_.unfelt_motion.IsLong(); }
@@ -75,7 +75,7 @@ class Estimator {
   const Config config_;
   const EstimatorOptions options_;
   PerWorld world_;
-  LensMonitor lens_;
+  std::vector<LensMonitor> lenses_;
 };
 
 }  // namespace plm_vins

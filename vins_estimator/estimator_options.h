@@ -6,10 +6,10 @@
 #include "vins_estimator/map/line_comparison.h"
 #include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/local_map.h"
-#include "vins_estimator/optimization/levenberg_marquardt.h"
 #include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/problem/problem_options.h"
 #include "vins_estimator/recall/anchor_policy.h"
+#include "vins_estimator/solver/levenberg_marquardt.h"
 
 namespace plm_vins {
 

@@ -8,11 +8,11 @@
 
 #include "common/append.h"
 #include "common/stopwatch.h"
-#include "vins_estimator/least_squares/normal_equations.h"
+#include "vins_estimator/equations/normal_equations.h"
 #include "vins_estimator/map/recalibration.h"
-#include "vins_estimator/optimization/window_solver.h"
 #include "vins_estimator/problem/placement_problem.h"
 #include "vins_estimator/problem/problem_builder.h"
+#include "vins_estimator/solver/window_solver.h"
 #include "vins_estimator/state/derived_covariance.h"
 #include "vins_estimator/uncertainty/length_evidence.h"
 #include "vins_estimator/uncertainty/placed_covariance.h"
@@ -298,11 +298,15 @@ EstimatorCounts WindowOdometry::CountLandmarks() const {
 }
 
 // Returns none before the window is full: then its middle is another frame at each keyframe.
-std::vector<PixelResidual> WindowOdometry::MiddleResiduals() const {
+std::vector<std::vector<PixelResidual>> WindowOdometry::MiddleResiduals() const {
   if (!WindowIsFull()) return {};
   const std::vector<WindowFrame>& frames = estimate_.map.window.frames;
-  return PixelResiduals(estimate_.map, frames[frames.size() / 2].state.t_ns,
-                        config_->sensor.cameras[0].parameters);
+  std::vector<std::vector<PixelResidual>> residuals;
+  for (const CameraSensor& camera : config_->sensor.cameras) {
+    const ImageKey image{frames[frames.size() / 2].state.t_ns, static_cast<int>(residuals.size())};
+    residuals.push_back(PixelResiduals(estimate_.map, image, camera.parameters));
+  }
+  return residuals;
 }
 
 PointMap::Fit WindowOdometry::FitOfNewest(int64_t keyframe_ns) const {

@@ -8,17 +8,17 @@
 #include "common/config/config.h"
 #include "common/measurements.h"
 #include "vins_estimator/estimator_options.h"
+#include "vins_estimator/failure/estimate_monitor.h"
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/imu/standstill_detector.h"
 #include "vins_estimator/initialization/initializer.h"
 #include "vins_estimator/map/pixel_residuals.h"
 #include "vins_estimator/marginalization/window_estimate.h"
 #include "vins_estimator/merging/line_structure.h"
-#include "vins_estimator/monitoring/depth_evidence.h"
-#include "vins_estimator/monitoring/estimate_monitor.h"
 #include "vins_estimator/monitoring/imu_agreement.h"
 #include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/state/estimator_output.h"
+#include "vins_estimator/uncertainty/depth_evidence.h"
 #include "vins_estimator/uncertainty/imu_noise_learning.h"
 #include "vins_estimator/uncertainty/rig_monitor.h"
 #include "vins_estimator/uncertainty/view_noise.h"
@@ -38,8 +38,9 @@ class WindowOdometry {
     std::optional<Matrix15d> covariance;  // covariance of `newest`
     std::optional<Failure> failure;       // if set, tracking is lost: reinitialize
     EstimatorOutput output;               // only counts and timings if tracking is lost
-    // Points in the middle frame of the window, whose pose is known best; each keyframe once.
-    std::vector<PixelResidual> residuals;
+    // Points in the middle frame of the window, whose pose is known best; each keyframe once. By
+    // camera, or empty.
+    std::vector<std::vector<PixelResidual>> residuals;
   };
 
   // Fills the window with the initial frames and optimizes it.
@@ -111,7 +112,7 @@ class WindowOdometry {
   bool DoubtsNewestInterval();
   EstimatorCounts CountLandmarks() const;
   EstimatorCounts LearnFromWindow();
-  std::vector<PixelResidual> MiddleResiduals() const;
+  std::vector<std::vector<PixelResidual>> MiddleResiduals() const;
   PointMap::Fit FitOfNewest(int64_t keyframe_ns) const;
   DepartedLandmarks SlideWindow(bool keep_second_newest);
   DepartedLandmarks SlideOldest();

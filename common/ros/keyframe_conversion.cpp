@@ -25,12 +25,20 @@ geometry_msgs::Point32 Nowhere() {
 Eigen::Vector3d ToVector(const geometry_msgs::Point32& p) { return {p.x, p.y, p.z}; }
 
 sensor_msgs::ChannelFloat32 ToChannel(const Eigen::Vector2d& first, const Eigen::Vector2d& second,
-                                      int64_t id) {
+                                      int64_t id, int camera) {
   sensor_msgs::ChannelFloat32 channel;
   channel.values = {static_cast<float>(first.x()), static_cast<float>(first.y()),
                     static_cast<float>(second.x()), static_cast<float>(second.y()),
                     static_cast<float>(WrapId(id))};
+  if (camera > 0) channel.values.push_back(static_cast<float>(camera));
   return channel;
+}
+
+// Returns a number that no camera has if it is not one.
+int CameraIn(const sensor_msgs::ChannelFloat32& channel) {
+  if (channel.values.size() == kValuesPerChannel) return 0;
+  const float camera = channel.values[kValuesPerChannel];
+  return camera >= 0 && camera < kMaxCameras ? static_cast<int>(camera) : -1;
 }
 
 bool HasManhattanFrame(const sensor_msgs::PointCloud& message) {
@@ -60,7 +68,7 @@ sensor_msgs::PointCloud ToKeyframePoints(const std::vector<TrackedCorner>& corne
     if (!corner.p_O) continue;
     cloud.points.push_back(ToPoint32(*corner.p_O));
     const PointObservation& seen = corner.observation;
-    cloud.channels.push_back(ToChannel(seen.xy, seen.uv_px, seen.id));
+    cloud.channels.push_back(ToChannel(seen.xy, seen.uv_px, seen.id, seen.camera));
   }
   return cloud;
 }
@@ -75,6 +83,7 @@ std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message, int
     corner.observation.xy = {values[0], values[1]};
     corner.observation.uv_px = {values[2], values[3]};
     corner.observation.id = ReadId(values[4]);
+    corner.observation.camera = CameraIn(message.channels[i]);
     corner.p_O = ToVector(message.points[i]);
     if (corner.p_O->allFinite() && IsPossibleAndNew(corner.observation, &ids)) {
       corners.push_back(corner);
@@ -93,7 +102,7 @@ sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segme
     cloud.points.push_back(is_placed ? ToPoint32(segment.landmark->start_O) : Nowhere());
     cloud.points.push_back(is_placed ? ToPoint32(segment.landmark->end_O) : Nowhere());
     const LineObservation& seen = segment.observation;
-    cloud.channels.push_back(ToChannel(seen.start, seen.end, seen.id));
+    cloud.channels.push_back(ToChannel(seen.start, seen.end, seen.id, seen.camera));
   }
   if (R_O_Manhattan) {
     sensor_msgs::ChannelFloat32& channel = cloud.channels.emplace_back();
@@ -116,6 +125,7 @@ std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message, i
     segment.observation.start = {values[0], values[1]};
     segment.observation.end = {values[2], values[3]};
     segment.observation.id = ReadId(values[4]);
+    segment.observation.camera = CameraIn(message.channels[i]);
     const SpaceSegment place{ToVector(message.points[2 * i]), ToVector(message.points[2 * i + 1])};
     if (place.start_O.allFinite() && place.end_O.allFinite()) segment.landmark = place;
     if (IsPossibleAndNew(segment.observation, &ids)) segments.push_back(segment);

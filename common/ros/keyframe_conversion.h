@@ -15,16 +15,17 @@
 namespace plm_vins {
 
 // ~keyframe_point has VINS-Mono's format: the positions of the triangulated corners, and one
-// channel for each, with x, y (normalized), u, v [px] and the id (modulo kTransportableIds).
-// Reading throws std::invalid_argument if a channel is missing or too short, or an id is invalid.
-// It drops, and counts, implausible observations (common/features/feature_checks.h), positions that
-// are not finite, and repeated ids.
+// channel for each, with x, y (normalized), u, v [px], the id (modulo kTransportableIds) and,
+// unless it is 0, the number of the camera. Reading throws std::invalid_argument if a channel is
+// missing or too short, or an id is invalid. It drops, and counts, implausible observations
+// (common/features/feature_checks.h), positions that are not finite, and repeated ids.
 sensor_msgs::PointCloud ToKeyframePoints(const std::vector<TrackedCorner>& corners, int64_t t_ns,
                                          const std::string& frame_id);
 std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message, int64_t* left_out);
 
 // ~keyframe_line has both 3-D endpoints of each line, NaN without a position, and one channel for
-// each line, with the endpoints x, y, x, y (normalized) and the id. Lines without a position matter
+// each line, with the endpoints x, y, x, y (normalized), the id and, unless it is 0, the number of
+// the camera. Lines without a position matter
 // as well: they confirm lines of an earlier visit. If the scene has a Manhattan frame, the last
 // channel, named after it, has R_O_Manhattan as w, x, y, z. Reading checks lines as it checks
 // points, and throws std::invalid_argument if R_O_Manhattan is not a rotation.

@@ -17,14 +17,9 @@ constexpr size_t kMaxUnfinished = 300;
 
 bool IsPowerOfTwo(int64_t count) { return (count & (count - 1)) == 0; }
 
-void ReleasePixels(ImageSample* image) {
-  image->gray.release();
-  image->owner.reset();
-}
-
 void ReleasePixels(TrackedFeatures* frame) {
-  ReleasePixels(&frame->points.image);
-  if (frame->lines) ReleasePixels(&frame->lines->image);
+  frame->points.images.clear();
+  if (frame->lines) frame->lines->images.clear();
 }
 
 RecordingEvent EventOf(const TrackedItem& item) {
@@ -211,7 +206,7 @@ void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
   PipelineFrame& frame = unfinished_[tracked.points.features.t_ns];
   frame.point_tracking_ms = tracked.points.tracking_ms;
   frame.point_tracking = tracked.points.statistics;
-  frame.image = std::move(tracked.points.image);
+  frame.images = std::move(tracked.points.images);
   back_end_.AddPoints(std::move(tracked.points.features));
   if (!tracked.lines) return;
   frame.line_tracking_ms = tracked.lines->tracking_ms;

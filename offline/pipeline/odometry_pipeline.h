@@ -29,9 +29,9 @@ namespace plm_vins {
 // Results of the pipeline for one image.
 struct PipelineFrame {
   EstimatorOutput output;
-  ImageSample image;           // without pixels unless loops are closed
-  std::vector<ImuSample> imu;  // samples of the estimator, without those of the previous frame
-  int64_t imu_ns = 0;          // IMU time of the state, which is that of the last sample
+  std::vector<ImageSample> images;  // by camera; without pixels unless loops are closed
+  std::vector<ImuSample> imu;       // samples of the estimator, without those of the previous frame
+  int64_t imu_ns = 0;               // IMU time of the state, which is that of the last sample
   PointFrame points;
   LineFrame lines;
   double point_tracking_ms = 0;

@@ -21,12 +21,12 @@ namespace {
 
 // Returns nullopt with a rolling shutter, since the bundle adjustment assumes that all rows of an
 // image are exposed at the same time.
-std::optional<MapBundle> BundleOf(const Config& config, const CameraModel& camera) {
+std::optional<MapBundle> BundleOf(const Config& config, double focal_length) {
   const SensorConfig& sensor = config.sensor;
   if (!config.pose_graph.bundle_adjustment || sensor.rolling_shutter) return std::nullopt;
   MapBundleOptions options;
   options.gravity_norm = sensor.gravity_norm;
-  options.point_noise = config.estimator.point_noise / camera.FocalLength();
+  options.point_noise = config.estimator.point_noise / focal_length;
   if (sensor.depth) options.depth_noise = sensor.depth->noise;
   return MapBundle(options);
 }
@@ -36,10 +36,10 @@ std::optional<MapBundle> BundleOf(const Config& config, const CameraModel& camer
 LoopResults::LoopResults(const Config& config, const std::string& folder,
                          std::optional<KeyframeMap> map)
     : folder_(folder),
-      camera_(CameraModel::Create(config.sensor.cameras[0].parameters)),
-      refined_camera_(camera_->parameters()),
-      loops_(LoopCloserOptions(*camera_), camera_),
-      bundle_(BundleOf(config, *camera_)),
+      cameras_(CreateAll(config.sensor.cameras)),
+      refined_camera_(cameras_[0]->parameters()),
+      loops_(LoopCloserOptions(cameras_), cameras_),
+      bundle_(BundleOf(config, cameras_[0]->FocalLength())),
       trajectory_(File("trajectory_map.tum")),
       covariance_(File("covariance_map.csv"), CovarianceHeader()),
       table_(File("loops.csv")) {
@@ -57,7 +57,7 @@ void LoopResults::Add(const PipelineFrame& frame) {
   }
   if (frame.output.restarted) restart_reason_ = frame.output.reason;
   if (!frame.output.has_pose) return;
-  if (frame.image.gray.empty()) {
+  if (frame.images.empty()) {
     throw std::runtime_error("loop closure needs images, and there are none with --features");
   }
   const bool restarted = !restart_reason_.empty() && !poses_.empty();
@@ -152,7 +152,7 @@ void LoopResults::WriteFinalTrajectory() const {
 Json LoopResults::BundleSummary() const {
   if (!adjusted_) return nullptr;
   const MapBundleSummary& bundle = bundle_->summary();
-  const double focal_length = camera_->FocalLength();
+  const double focal_length = cameras_[0]->FocalLength();
   Json json;
   json["keyframes"] = bundle.keyframes;
   json["landmarks"] = bundle.landmarks;

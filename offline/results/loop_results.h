@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/camera/camera_models.h"
 #include "common/config/config.h"
 #include "common/io/output_file.h"
 #include "map_bundle/map_bundle.h"
@@ -67,8 +67,8 @@ class LoopResults {
   Json BundleSummary() const;
 
   std::string folder_;
-  std::shared_ptr<const CameraModel> camera_;  // configured camera
-  CameraParameters refined_camera_;            // at the last pose in M; defines the keyframes' rays
+  CameraModels cameras_;             // configured cameras
+  CameraParameters refined_camera_;  // camera 0 at the last pose in M; defines the keyframes' rays
   LoopCloser loops_;
   std::optional<MapBundle> bundle_;
   std::optional<Adjusted> adjusted_;

@@ -13,6 +13,7 @@ namespace {
 constexpr size_t kFewStamps = 60;
 constexpr size_t kMaxStamps = 300;
 constexpr int64_t kMaxAge_ns = 2'000'000'000;
+constexpr int64_t kSameTime_ns = 2'000'000;
 
 }  // namespace
 
@@ -38,13 +39,24 @@ KeyframeAssembly::Stamps::iterator KeyframeAssembly::Forget(Stamps::iterator beg
   return parts_.erase(begin, end);
 }
 
-void KeyframeAssembly::AddImage(const ImageSample& image) {
+void KeyframeAssembly::AddImage(int camera, const ImageSample& image) {
+  if (camera == 0) return AddImageOfFirst(image);
+  std::deque<ImageSample>& images = further_images_[camera];
+  if (!images.empty() && image.t_ns <= images.back().t_ns) images.clear();
+  images.push_back(image);
+  const auto is_old = [&](const ImageSample& other) {
+    return images.size() > kMaxStamps ||
+           (images.size() > kFewStamps && image.t_ns - other.t_ns > kMaxAge_ns);
+  };
+  while (is_old(images.front())) images.pop_front();
+}
+
+void KeyframeAssembly::AddImageOfFirst(const ImageSample& image) {
   const StampVerdict verdict = image_order_.Add(image.t_ns);
   if (verdict == StampVerdict::kIsAhead) return;
   if (verdict == StampVerdict::kRestarts) parts_.clear();
   Parts& parts = PartsAt(image.t_ns);
-  parts.frame.gray = image.gray;
-  parts.frame.owner = image.owner;
+  parts.frame.images[0] = {image.gray, image.owner};
 }
 
 void KeyframeAssembly::AddPose(int64_t t_ns, const Rigid3d& T_O_B,
@@ -83,11 +95,22 @@ std::optional<OdometryFrame> KeyframeAssembly::Pop() {
   }
   OdometryFrame frame = std::move(first->second.frame);
   parts_.erase(Forget(parts_.begin(), first));
+  TakeFurtherImages(&frame);
   return frame;
+}
+
+// Drops older images.
+void KeyframeAssembly::TakeFurtherImages(OdometryFrame* frame) {
+  for (auto& [camera, images] : further_images_) {
+    while (!images.empty() && images.front().t_ns < frame->t_ns - kSameTime_ns) images.pop_front();
+    if (images.empty() || images.front().t_ns > frame->t_ns + kSameTime_ns) continue;
+    frame->images[camera] = {images.front().gray, images.front().owner};
+  }
 }
 
 void KeyframeAssembly::Clear() {
   parts_.clear();
+  further_images_.clear();
   image_order_.Clear();
 }
 

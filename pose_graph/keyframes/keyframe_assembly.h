@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <vector>
@@ -11,15 +12,16 @@
 
 namespace plm_vins {
 
-// Assembles keyframes from parts that arrive separately in any order: image, pose, corners, lines.
-// Parts are joined by equal timestamps. Lines are optional: a keyframe waits for them until the
-// next keyframe is complete. Keeps the parts of the newest timestamps only (at least two seconds,
-// at most 300 timestamps) and restarts after a permanent backward jump of the image timestamps, as
-// when a recording is replayed. An image after a forward jump is dropped, since its timestamp may
-// be wrong.
+// Assembles keyframes from parts that arrive separately in any order: images, pose, corners, lines.
+// Parts are joined by equal timestamps, images of further cameras by timestamps that differ by at
+// most 2 ms from that of camera 0. Lines and these images are optional: a keyframe waits for lines
+// until the next keyframe is complete. Keeps the parts of the newest timestamps only (at least two
+// seconds, at most 300 timestamps) and restarts after a permanent backward jump of the image
+// timestamps, as when a recording is replayed. An image after a forward jump is dropped, since its
+// timestamp may be wrong.
 class KeyframeAssembly {
  public:
-  void AddImage(const ImageSample& image);
+  void AddImage(int camera, const ImageSample& image);
   void AddPose(int64_t t_ns, const Rigid3d& T_O_B, const Eigen::Matrix<double, 6, 6>& covariance);
   void AddCorners(int64_t t_ns, std::vector<TrackedCorner> corners);
   void AddSegments(int64_t t_ns, std::vector<TrackedSegment> segments,
@@ -40,18 +42,22 @@ class KeyframeAssembly {
     bool has_corners = false;
     bool has_segments = false;
 
-    bool AreComplete() const { return !frame.gray.empty() && has_pose && has_corners; }
-    bool LacksImage() const { return frame.gray.empty() && has_pose && has_corners; }
+    bool has_image() const { return !frame.images.empty(); }
+    bool AreComplete() const { return has_image() && has_pose && has_corners; }
+    bool LacksImage() const { return !has_image() && has_pose && has_corners; }
   };
 
   using Stamps = std::map<int64_t, Parts>;
 
+  void AddImageOfFirst(const ImageSample& image);
+  void TakeFurtherImages(OdometryFrame* frame);
   Parts& PartsAt(int64_t t_ns);
   bool HasTooMany() const;
   // Erases the range, counting keyframes that lack their image; returns `end`.
   Stamps::iterator Forget(Stamps::iterator begin, Stamps::iterator end);
 
   Stamps parts_;
+  std::map<int, std::deque<ImageSample>> further_images_;  // of cameras other than 0, oldest first
   StampOrder image_order_{kImageJumps};
   int64_t without_image_ = 0;
 };

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/keyframes/keyframe_maker.h"
 
-#include <memory>
+#include <utility>
 #include <vector>
 
+#include "common/append.h"
 #include "common/camera/ray_transfer.h"
 #include "pose_graph/description/corner_description.h"
 #include "pose_graph/keyframes/odometry_noise.h"
@@ -11,35 +12,65 @@
 namespace plm_vins {
 namespace {
 
-// Returns the frame with all rays recomputed by the refined camera.
-OdometryFrame Refined(const CameraModel& camera, const CameraModel& refined, OdometryFrame frame) {
-  for (TrackedCorner& corner : frame.corners) {
-    TransferRay(camera, refined, &corner.observation.xy);
+// Returns the models of the refined cameras, or those given of cameras that are not refined.
+CameraModels RefinedModels(const CameraModels& cameras, const OdometryFrame& frame) {
+  CameraModels refined = cameras;
+  for (size_t i = 0; i < frame.refined.size(); ++i) {
+    if (frame.refined[i].intrinsics() == cameras[i]->parameters().intrinsics()) continue;
+    refined[i] = CameraModel::Create(frame.refined[i]);
   }
-  for (TrackedSegment& segment : frame.segments) {
-    TransferRay(camera, refined, &segment.observation.start);
-    TransferRay(camera, refined, &segment.observation.end);
-  }
-  return frame;
+  return refined;
 }
 
-std::vector<DescribedCorner> FollowedCorners(const OdometryFrame& frame) {
+// Recomputes a ray of `camera` by the refined model.
+void Transfer(const CameraModels& cameras, const CameraModels& refined, int camera,
+              Eigen::Vector2d* xy) {
+  if (refined[camera] != cameras[camera]) TransferRay(*cameras[camera], *refined[camera], xy);
+}
+
+// Returns the tracked corners in the images, whose rays are those of `cameras`.
+std::vector<DescribedCorner> FollowedCorners(const CameraModels& cameras,
+                                             const CameraModels& refined,
+                                             const OdometryFrame& frame) {
   std::vector<DescribedCorner> corners;
   for (const TrackedCorner& tracked : frame.corners) {
+    const int camera = tracked.observation.camera;
+    const auto image = frame.images.find(camera);
+    if (image == frame.images.end()) continue;
     const Eigen::Vector2f uv_px = tracked.observation.uv_px.cast<float>();
-    const bool in_image = uv_px.x() >= 0 && uv_px.y() >= 0 && uv_px.x() < frame.gray.cols &&
-                          uv_px.y() < frame.gray.rows;
+    const cv::Mat& gray = image->second.gray;
+    const bool in_image =
+        uv_px.x() >= 0 && uv_px.y() >= 0 && uv_px.x() < gray.cols && uv_px.y() < gray.rows;
     if (!in_image) continue;
+    Eigen::Vector2d xy = tracked.observation.xy;
+    Transfer(cameras, refined, camera, &xy);
     DescribedCorner& corner = corners.emplace_back();
     corner.track = tracked.observation.id;
+    corner.camera = camera;
     corner.uv_px = uv_px;
-    corner.xy = tracked.observation.xy.cast<float>();
+    corner.xy = xy.cast<float>();
     if (tracked.p_O && corner.track >= 0) corner.p_O = tracked.p_O->cast<float>();
   }
   return corners;
 }
 
-void AddFoundCorners(const CornerSelectionOptions& options, const CameraModel& camera,
+// Returns the tracked segments in the images, whose rays are those of `cameras`.
+std::vector<TrackedSegment> FollowedSegments(const CameraModels& cameras,
+                                             const CameraModels& refined,
+                                             const OdometryFrame& frame) {
+  std::vector<TrackedSegment> segments;
+  for (TrackedSegment segment : frame.segments) {
+    LineObservation& seen = segment.observation;
+    if (frame.images.count(seen.camera) == 0) continue;
+    Transfer(cameras, refined, seen.camera, &seen.start);
+    Transfer(cameras, refined, seen.camera, &seen.end);
+    segments.push_back(segment);
+  }
+  return segments;
+}
+
+// Adds corners of the image of camera number `number`, whose corners `corners` are.
+void AddFoundCorners(const CornerSelectionOptions& options, const CameraModel& camera, int number,
                      const cv::Mat& gray, std::vector<DescribedCorner>* corners) {
   std::vector<Eigen::Vector2f> known_px;
   for (const DescribedCorner& corner : *corners) known_px.push_back(corner.uv_px);
@@ -47,6 +78,7 @@ void AddFoundCorners(const CornerSelectionOptions& options, const CameraModel& c
     const auto xy = camera.Unproject(uv_px.cast<double>());
     if (!xy) continue;
     DescribedCorner& corner = corners->emplace_back();
+    corner.camera = number;
     corner.uv_px = uv_px;
     corner.xy = xy->cast<float>();
   }
@@ -73,22 +105,25 @@ void Describe(const CameraModel& camera, const Eigen::Quaterniond& R_O_C, const 
 
 }  // namespace
 
-Keyframe MakeKeyframe(const CornerSelectionOptions& options, const CameraModel& camera,
+Keyframe MakeKeyframe(const CornerSelectionOptions& options, const CameraModels& cameras,
                       const OdometryFrame& frame) {
-  if (frame.camera && frame.camera->intrinsics() != camera.parameters().intrinsics()) {
-    const std::unique_ptr<const CameraModel> refined = CameraModel::Create(*frame.camera);
-    return MakeKeyframe(options, *refined, Refined(camera, *refined, frame));
-  }
+  const CameraModels refined = RefinedModels(cameras, frame);
   Keyframe keyframe;
   keyframe.t_ns = frame.t_ns;
   keyframe.T_O_B = frame.T_O_B;
   keyframe.covariance = LevelCovariance(frame.T_O_B, frame.covariance);
   keyframe.T_B_C = frame.T_B_C;
   keyframe.R_O_Manhattan = frame.R_O_Manhattan;
-  keyframe.segments = frame.segments;
-  keyframe.corners = FollowedCorners(frame);
-  AddFoundCorners(options, camera, frame.gray, &keyframe.corners);
-  Describe(camera, keyframe.T_O_C().rotation, frame.gray, &keyframe.corners);
+  keyframe.segments = FollowedSegments(cameras, refined, frame);
+  keyframe.corners = FollowedCorners(cameras, refined, frame);
+  std::vector<DescribedCorner> described;
+  for (const auto& [camera, image] : frame.images) {
+    std::vector<DescribedCorner> corners = keyframe.CornersIn(camera);
+    AddFoundCorners(options, *refined[camera], camera, image.gray, &corners);
+    Describe(*refined[camera], keyframe.T_O_C(camera).rotation, image.gray, &corners);
+    Append(corners, &described);
+  }
+  keyframe.corners = std::move(described);
   return keyframe;
 }
 

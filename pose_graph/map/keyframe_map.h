@@ -5,6 +5,7 @@
 
 #include "pose_graph/graph/pose_graph.h"
 #include "pose_graph/keyframes/keyframe.h"
+#include "pose_graph/keyframes/map_image.h"
 
 namespace plm_vins {
 
@@ -33,8 +34,8 @@ struct KeyframeMap {
   }
 
   // Camera pose in the map.
-  Rigid3d T_M_C(int keyframe) const {
-    return T_M_O(keyframe).ToRigid() * keyframes[keyframe].T_O_C();
+  Rigid3d T_M_C(const MapImage& image) const {
+    return T_M_O(image.keyframe).ToRigid() * keyframes[image.keyframe].T_O_C(image.camera);
   }
 };
 

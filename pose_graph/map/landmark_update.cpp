@@ -2,6 +2,7 @@
 #include "pose_graph/map/landmark_update.h"
 
 #include <unordered_map>
+#include <vector>
 
 #include "pose_graph/verification/seen_point.h"
 
@@ -21,15 +22,18 @@ PlacesByTrack PlacesOf(const Keyframe& keyframe) {
 // Sets the landmarks of `keyframe` that have a known position. Returns whether it shares any track
 // with `places`.
 bool TakeOver(const PlacesByTrack& places, double max_error, Keyframe* keyframe) {
-  const Rigid3d T_O_C = keyframe->T_O_C();
-  const Viewpoint viewpoint({0, T_O_C.translation}, T_O_C.rotation);
+  std::vector<Viewpoint> viewpoints;
+  for (int camera = 0; camera < keyframe->cameras(); ++camera) {
+    const Rigid3d T_O_C = keyframe->T_O_C(camera);
+    viewpoints.emplace_back(LevelTransform{0, T_O_C.translation}, T_O_C.rotation);
+  }
   bool shares_tracks = false;
   for (DescribedCorner& corner : keyframe->corners) {
     const auto place = places.find(corner.track);
     if (place == places.end()) continue;
     shares_tracks = true;
     const SeenPoint seen = {place->second.cast<double>(), corner.xy.cast<double>()};
-    if (viewpoint.Error(seen) < max_error) corner.p_O = place->second;
+    if (viewpoints[corner.camera].Error(seen) < max_error) corner.p_O = place->second;
   }
   return shares_tracks;
 }

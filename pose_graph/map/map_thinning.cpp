@@ -33,11 +33,11 @@ bool MapThinning::IsOld(const Keyframe& keyframe, const Keyframe& newest) const 
 
 // Returns the earlier keyframes with a similar viewpoint and little drift in between.
 std::vector<int> MapThinning::Like(const KeyframeMap& map, int number) const {
-  const Rigid3d T_M_C = map.T_M_C(number);
+  const Rigid3d T_M_C = map.T_M_C({number, 0});
   std::vector<int> like;
   for (const int i : map.graph.Kept()) {
     if (i >= number) break;
-    const Rigid3d other = map.T_M_C(i);
+    const Rigid3d other = map.T_M_C({i, 0});
     if ((other.translation - T_M_C.translation).norm() <= options_.distance &&
         other.rotation.angularDistance(T_M_C.rotation) <= options_.angle &&
         map.graph.Distance(number, i) <= options_.way) {

@@ -28,11 +28,11 @@ std::map<LandmarkKey, ColmapPoint> CollectPoints(const KeyframeMap& map,
                                                  const std::vector<int>& keyframes) {
   std::map<LandmarkKey, ColmapPoint> points;
   for (const int i : keyframes) {
-    const Keyframe& keyframe = map.keyframes[i];
-    for (size_t corner = 0; corner < keyframe.corners.size(); ++corner) {
-      const DescribedCorner& seen = keyframe.corners[corner];
+    const std::vector<DescribedCorner> corners = map.keyframes[i].CornersIn(0);
+    for (size_t corner = 0; corner < corners.size(); ++corner) {
+      const DescribedCorner& seen = corners[corner];
       if (!seen.p_O) continue;
-      ColmapPoint& point = points[{keyframe.world, seen.track}];
+      ColmapPoint& point = points[{map.keyframes[i].world, seen.track}];
       point.p_M = map.T_M_O(i) * seen.p_O->cast<double>();
       point.views.emplace_back(i, corner);
     }
@@ -97,13 +97,13 @@ void WriteImage(const CameraModel& camera, const KeyframeMap& map, int number,
                 const std::string& name, const std::map<LandmarkKey, ColmapPoint>& points,
                 std::ostream* stream) {
   const Keyframe& keyframe = map.keyframes[number];
-  const Rigid3d T_C_M = map.T_M_C(number).Inverse();
+  const Rigid3d T_C_M = map.T_M_C({number, 0}).Inverse();
   const Eigen::Quaterniond& q = T_C_M.rotation;
   *stream << number + 1 << ' ' << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z();
   for (int i = 0; i < 3; ++i) *stream << ' ' << T_C_M.translation(i);
   *stream << " 1 " << name << '\n';
   const char* space = "";
-  for (const DescribedCorner& corner : keyframe.corners) {
+  for (const DescribedCorner& corner : keyframe.CornersIn(0)) {
     const Eigen::Vector2d uv = ToColmapPixel(camera, corner);
     const int64_t id = corner.p_O ? points.at({keyframe.world, corner.track}).id : -1;
     *stream << space << uv.x() << ' ' << uv.y() << ' ' << id;

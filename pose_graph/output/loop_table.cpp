@@ -33,7 +33,8 @@ void WriteLoopHeader(std::ostream* stream) {
       << "later_ns,earlier_ns,later,earlier,result,score_share,repeated,common_tracks,matches,pose_"
          "inliers,"
          "inliers,inlier_share,manhattan_error_deg,cells,backward_inliers,backward_share,"
-         "visible_lines,line_share,odometry_error_sigma,graph_error_sigma,x_m,y_m,z_m,yaw_deg\n";
+         "visible_lines,line_share,odometry_error_sigma,graph_error_sigma,x_m,y_m,z_m,yaw_deg,"
+         "later_camera,earlier_camera\n";
 }
 
 void WriteLoopRow(const LoopCandidate& candidate, std::ostream* stream) {
@@ -58,7 +59,7 @@ void WriteLoopRow(const LoopCandidate& candidate, std::ostream* stream) {
   const LevelTransform& T = candidate.T_earlier_later;
   for (int i = 0; i < 3; ++i) WriteNumber(T.translation(i), stream);
   WriteNumber(T.yaw * kDegreesPerRadian, stream);
-  *stream << '\n';
+  *stream << ',' << candidate.later_camera << ',' << candidate.earlier_camera << '\n';
 }
 
 }  // namespace plm_vins

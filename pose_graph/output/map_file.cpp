@@ -18,7 +18,7 @@ namespace plm_vins {
 namespace {
 
 constexpr char kSignature[] = "plm_vins map";
-constexpr uint32_t kVersion = 2;
+constexpr uint32_t kVersion = 3;
 
 // [FNV]: 64-bit FNV-1a. Detects accidental damage, not manipulation.
 uint64_t Checksum(const std::string& bytes) {
@@ -43,7 +43,7 @@ void Level(Archive* archive, Struct& transform) {
 
 template <typename Archive, typename Struct>
 void Corner(Archive* archive, Struct& corner) {
-  Values(archive, corner.track, corner.uv_px, corner.xy);
+  Values(archive, corner.track, corner.camera, corner.uv_px, corner.xy);
   if (archive->Has(corner.p_O)) Values(archive, *corner.p_O);
   for (auto& word : corner.descriptor) archive->Value(word);
 }
@@ -51,7 +51,7 @@ void Corner(Archive* archive, Struct& corner) {
 template <typename Archive, typename Struct>
 void Segment(Archive* archive, Struct& segment) {
   auto& observation = segment.observation;
-  Values(archive, observation.id, observation.start, observation.end);
+  Values(archive, observation.id, observation.camera, observation.start, observation.end);
   if (!archive->Has(segment.landmark)) return;
   Values(archive, segment.landmark->start_O, segment.landmark->end_O);
 }
@@ -61,7 +61,7 @@ void Frame(Archive* archive, Struct& keyframe) {
   Values(archive, keyframe.t_ns, keyframe.world, keyframe.path);
   Pose(archive, keyframe.T_O_B);
   Values(archive, keyframe.covariance);
-  Pose(archive, keyframe.T_B_C);
+  archive->List(keyframe.T_B_C, [](auto* a, auto& T_B_C) { Pose(a, T_B_C); });
   if (archive->Has(keyframe.R_O_Manhattan)) Values(archive, keyframe.R_O_Manhattan->coeffs());
   archive->List(keyframe.corners, [](auto* a, auto& corner) { Corner(a, corner); });
   archive->List(keyframe.segments, [](auto* a, auto& segment) { Segment(a, segment); });

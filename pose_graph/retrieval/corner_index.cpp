@@ -20,7 +20,7 @@ uint64_t CornerIndex::Word(const Descriptor& descriptor, int table) const {
   return word;
 }
 
-void CornerIndex::Add(int image, const std::vector<Descriptor>& descriptors) {
+void CornerIndex::Add(const MapImage& image, const std::vector<Descriptor>& descriptors) {
   images_.insert(image);
   for (const Descriptor& descriptor : descriptors) {
     for (int table = 0; table < options_.tables; ++table) {
@@ -29,21 +29,21 @@ void CornerIndex::Add(int image, const std::vector<Descriptor>& descriptors) {
   }
 }
 
-void CornerIndex::Remove(int image, const std::vector<Descriptor>& descriptors) {
+void CornerIndex::Remove(const MapImage& image, const std::vector<Descriptor>& descriptors) {
   images_.erase(image);
   for (const Descriptor& descriptor : descriptors) {
     for (int table = 0; table < options_.tables; ++table) {
       std::vector<Entry>& bucket = buckets_[Word(descriptor, table)];
       bucket.erase(std::remove_if(bucket.begin(), bucket.end(),
-                                  [image](const Entry& entry) { return entry.image == image; }),
+                                  [&image](const Entry& entry) { return entry.image == image; }),
                    bucket.end());
     }
   }
 }
 
 PLM_COUNTS_BITS
-std::vector<int> CornerIndex::ImagesWith(const Descriptor& descriptor) const {
-  std::vector<int> images;
+std::vector<MapImage> CornerIndex::ImagesWith(const Descriptor& descriptor) const {
+  std::vector<MapImage> images;
   for (int table = 0; table < options_.tables; ++table) {
     for (const Entry& entry : buckets_[Word(descriptor, table)]) {
       const int distance = HammingDistance(entry.descriptor, descriptor);
@@ -55,14 +55,14 @@ std::vector<int> CornerIndex::ImagesWith(const Descriptor& descriptor) const {
   return images;
 }
 
-std::map<int, double> CornerIndex::Scores(const std::vector<Descriptor>& descriptors) const {
+std::map<MapImage, double> CornerIndex::Scores(const std::vector<Descriptor>& descriptors) const {
   const auto image_count = static_cast<double>(images_.size());
-  std::map<int, double> scores;
+  std::map<MapImage, double> scores;
   for (const Descriptor& descriptor : descriptors) {
-    const std::vector<int> images = ImagesWith(descriptor);
+    const std::vector<MapImage> images = ImagesWith(descriptor);
     if (images.empty()) continue;
     const double weight = std::log((image_count + 1) / static_cast<double>(images.size()));
-    for (const int image : images) scores[image] += weight;
+    for (const MapImage& image : images) scores[image] += weight;
   }
   return scores;
 }

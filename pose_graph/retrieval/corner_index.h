@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pose_graph/description/descriptor.h"
+#include "pose_graph/keyframes/map_image.h"
 
 namespace plm_vins {
 
@@ -22,24 +23,25 @@ class CornerIndex {
  public:
   explicit CornerIndex(const CornerIndexOptions& options);
 
-  void Add(int image, const std::vector<Descriptor>& descriptors);
-  void Remove(int image, const std::vector<Descriptor>& descriptors);  // must have been added
+  void Add(const MapImage& image, const std::vector<Descriptor>& descriptors);
+  // The image must have been added.
+  void Remove(const MapImage& image, const std::vector<Descriptor>& descriptors);
 
   // Similarity of the indexed images to an image with these descriptors: matches are weighted by
   // inverse document frequency. Images without a match are missing in the result.
-  std::map<int, double> Scores(const std::vector<Descriptor>& descriptors) const;
+  std::map<MapImage, double> Scores(const std::vector<Descriptor>& descriptors) const;
 
  private:
   struct Entry {
-    int image;
+    MapImage image;
     Descriptor descriptor;
   };
 
   uint64_t Word(const Descriptor& descriptor, int table) const;
-  std::vector<int> ImagesWith(const Descriptor& descriptor) const;  // images, each once
+  std::vector<MapImage> ImagesWith(const Descriptor& descriptor) const;  // images, each once
 
   CornerIndexOptions options_;
-  std::set<int> images_;
+  std::set<MapImage> images_;
   std::vector<std::vector<Entry>> buckets_;  // tables one after another, each indexed by word
 };
 

@@ -12,9 +12,11 @@
 namespace plm_vins {
 namespace {
 
-std::vector<Descriptor> DescriptorsOf(const Keyframe& keyframe) {
+std::vector<Descriptor> DescriptorsOf(const Keyframe& keyframe, int camera) {
   std::vector<Descriptor> descriptors;
-  for (const DescribedCorner& corner : keyframe.corners) descriptors.push_back(corner.descriptor);
+  for (const DescribedCorner& corner : keyframe.corners) {
+    if (corner.camera == camera) descriptors.push_back(corner.descriptor);
+  }
   return descriptors;
 }
 
@@ -23,24 +25,30 @@ bool IsEarlierVisit(const Keyframe& newest, const Keyframe& other, double min_ti
   return other.world != newest.world || ToSeconds(newest.t_ns - other.t_ns) >= min_time;
 }
 
-double ScoreOf(const std::map<int, double>& scores, int number) {
-  const auto found = scores.find(number);
+using Scores = std::map<MapImage, double>;
+
+double ScoreOf(const Scores& scores, const MapImage& image) {
+  const auto found = scores.find(image);
   return found == scores.end() ? 0.0 : found->second;
 }
 
-// Score of the preceding image, which normalizes the other scores. For the first image of a world
-// it is estimated from the image's score with itself.
-double ReferenceScore(const std::map<int, double>& scores, const std::vector<Keyframe>& keyframes) {
+// Score of the camera's preceding image, which normalizes the other scores. Without one, as for the
+// first image of a world, it is estimated from the image's score with itself.
+double ReferenceScore(const Scores& scores, const std::vector<Keyframe>& keyframes, int camera) {
   constexpr double kUsualShare = 0.24;  // typical ratio to the score with itself: median of V1_02
   const int newest = static_cast<int>(keyframes.size()) - 1;
-  const bool is_first = newest == 0 || keyframes[newest - 1].world != keyframes[newest].world;
-  return is_first ? kUsualShare * ScoreOf(scores, newest) : ScoreOf(scores, newest - 1);
+  const bool is_first = newest == 0 || keyframes[newest - 1].world != keyframes[newest].world ||
+                        (camera > 0 && scores.count({newest - 1, camera}) == 0);
+  return is_first ? kUsualShare * ScoreOf(scores, {newest, camera})
+                  : ScoreOf(scores, {newest - 1, camera});
 }
 
-double IslandScore(const std::map<int, double>& scores, const std::vector<Keyframe>& keyframes,
-                   int number, int radius) {
+double IslandScore(const Scores& scores, const std::vector<Keyframe>& keyframes,
+                   const MapImage& image, int radius) {
   double sum = 0;
-  for (const int i : NumbersAround(keyframes, number, radius)) sum += ScoreOf(scores, i);
+  for (const int i : NumbersAround(keyframes, image.keyframe, radius)) {
+    sum += ScoreOf(scores, {i, image.camera});
+  }
   return sum;
 }
 
@@ -50,54 +58,69 @@ PlaceRecognition::PlaceRecognition(const PlaceRecognitionOptions& options)
     : options_(options), index_(options.index) {}
 
 void PlaceRecognition::Add(const Keyframe& keyframe, int number) {
-  index_.Add(number, DescriptorsOf(keyframe));
+  for (int camera = 0; camera < keyframe.cameras(); ++camera) {
+    index_.Add({number, camera}, DescriptorsOf(keyframe, camera));
+  }
 }
 
 void PlaceRecognition::Remove(const Keyframe& keyframe, int number) {
-  index_.Remove(number, DescriptorsOf(keyframe));
+  for (int camera = 0; camera < keyframe.cameras(); ++camera) {
+    index_.Remove({number, camera}, DescriptorsOf(keyframe, camera));
+  }
 }
 
 std::vector<PlaceCandidate> PlaceRecognition::Find(const std::vector<Keyframe>& keyframes) {
-  const int newest = static_cast<int>(keyframes.size()) - 1;
-  const std::map<int, double> scores = index_.Scores(DescriptorsOf(keyframes[newest]));
-  std::vector<std::pair<double, int>> islands;  // score, keyframe number
-  for (const auto& [number, score] : scores) {
-    if (!IsEarlierVisit(keyframes[newest], keyframes[number], options_.min_time)) continue;
-    islands.emplace_back(IslandScore(scores, keyframes, number, options_.island_radius), number);
-  }
-  std::stable_sort(islands.begin(), islands.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-
-  const double reference = ReferenceScore(scores, keyframes);
   std::vector<PlaceCandidate> candidates;
-  for (const auto& [island_score, number] : islands) {
-    if (static_cast<int>(candidates.size()) == options_.max_islands) break;
-    const bool taken = std::any_of(
-        candidates.begin(), candidates.end(), [&, number = number](const PlaceCandidate& other) {
-          return std::abs(other.keyframe - number) <= 2 * options_.island_radius;
-        });
-    if (taken) continue;
-    PlaceCandidate candidate;
-    candidate.keyframe = number;
-    candidate.score_share = reference > 0 ? ScoreOf(scores, number) / reference : 0;
-    candidate.similar = candidate.score_share >= options_.min_score_share;
-    candidate.repeated = IsRepeated(keyframes[number], number, keyframes);
-    candidates.push_back(candidate);
+  for (int camera = 0; camera < keyframes.back().cameras(); ++camera) {
+    FindFor(camera, keyframes, &candidates);
   }
   recent_.emplace_back();
   for (const PlaceCandidate& candidate : candidates) {
-    if (candidate.similar) recent_.back().push_back(candidate.keyframe);
+    if (candidate.similar) recent_.back().push_back(candidate.earlier);
   }
   if (static_cast<int>(recent_.size()) > options_.memory) recent_.pop_front();
   return candidates;
 }
 
-bool PlaceRecognition::IsRepeated(const Keyframe& candidate, int number,
+void PlaceRecognition::FindFor(int camera, const std::vector<Keyframe>& keyframes,
+                               std::vector<PlaceCandidate>* candidates) const {
+  const Keyframe& newest = keyframes.back();
+  const Scores scores = index_.Scores(DescriptorsOf(newest, camera));
+  std::vector<std::pair<double, MapImage>> islands;  // with scores
+  for (const auto& [image, score] : scores) {
+    if (!IsEarlierVisit(newest, keyframes[image.keyframe], options_.min_time)) continue;
+    islands.emplace_back(IslandScore(scores, keyframes, image, options_.island_radius), image);
+  }
+  std::stable_sort(islands.begin(), islands.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+
+  const double reference = ReferenceScore(scores, keyframes, camera);
+  std::vector<MapImage> taken;
+  for (const auto& [island_score, image] : islands) {
+    if (static_cast<int>(taken.size()) == options_.max_islands) break;
+    const auto is_same_island = [&, image = image](const MapImage& other) {
+      return other.camera == image.camera &&
+             std::abs(other.keyframe - image.keyframe) <= 2 * options_.island_radius;
+    };
+    if (std::any_of(taken.begin(), taken.end(), is_same_island)) continue;
+    taken.push_back(image);
+    PlaceCandidate& candidate = candidates->emplace_back();
+    candidate.earlier = image;
+    candidate.camera = camera;
+    candidate.score_share = reference > 0 ? ScoreOf(scores, image) / reference : 0;
+    candidate.similar = candidate.score_share >= options_.min_score_share;
+    candidate.repeated = IsRepeated(image, keyframes);
+  }
+}
+
+// Islands are compared by time only: while the body turns, another camera sees the place.
+bool PlaceRecognition::IsRepeated(const MapImage& candidate,
                                   const std::vector<Keyframe>& keyframes) const {
-  for (const std::vector<int>& before : recent_) {
-    for (const int other : before) {
-      if (keyframes[other].world == candidate.world &&
-          std::abs(other - number) <= 2 * options_.island_radius) {
+  const int world = keyframes[candidate.keyframe].world;
+  for (const std::vector<MapImage>& before : recent_) {
+    for (const MapImage& other : before) {
+      if (keyframes[other.keyframe].world == world &&
+          std::abs(other.keyframe - candidate.keyframe) <= 2 * options_.island_radius) {
         return true;
       }
     }

@@ -15,18 +15,21 @@ struct PlaceRecognitionOptions {
   int island_radius = 3;          // neighboring keyframes on each side that show the same place
   int max_islands = 3;            // candidates for each image
   double min_score_share = 0.05;  // relative to the score of the preceding image
-  int memory = 2;                 // preceding images, one of which must have led to the same island
+  int memory = 2;  // preceding keyframes, one of which must have led to the same island
 };
 
-// An island (keyframes adjacent in time) that is similar to the newest image.
+// An island (images of one camera, adjacent in time) that is similar to an image of the newest
+// keyframe.
 struct PlaceCandidate {
-  int keyframe = -1;       // number of the most similar keyframe
+  MapImage earlier;        // the most similar image
+  int camera = 0;          // of the newest keyframe's image
   double score_share = 0;  // relative to the score of the preceding image
   bool similar = false;    // `score_share` reaches the minimum
-  bool repeated = false;   // a preceding image led to the same island
+  bool repeated = false;   // a preceding keyframe led to the same island
 };
 
-// Proposes keyframes of earlier visits that may show the same place as the newest one.
+// Proposes images of earlier visits that may show the same place as one of the newest keyframe. The
+// cameras may differ: one that looks back recognizes what another one saw ahead.
 class PlaceRecognition {
  public:
   explicit PlaceRecognition(const PlaceRecognitionOptions& options);
@@ -36,16 +39,18 @@ class PlaceRecognition {
 
   void Remove(const Keyframe& keyframe, int number);
 
-  // Returns candidates for the newest keyframe, best first. The keyframe must have been added.
+  // Returns candidates for each image of the newest keyframe by camera, best first. The keyframe
+  // must have been added.
   std::vector<PlaceCandidate> Find(const std::vector<Keyframe>& keyframes);
 
  private:
-  bool IsRepeated(const Keyframe& candidate, int number,
-                  const std::vector<Keyframe>& keyframes) const;
+  void FindFor(int camera, const std::vector<Keyframe>& keyframes,
+               std::vector<PlaceCandidate>* candidates) const;
+  bool IsRepeated(const MapImage& candidate, const std::vector<Keyframe>& keyframes) const;
 
   PlaceRecognitionOptions options_;
   CornerIndex index_;
-  std::deque<std::vector<int>> recent_;  // candidates of the preceding images, newest last
+  std::deque<std::vector<MapImage>> recent_;  // candidates of the preceding keyframes, newest last
 };
 
 }  // namespace plm_vins

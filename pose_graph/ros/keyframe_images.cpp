@@ -12,21 +12,21 @@ constexpr int kJpegQuality = 80;
 
 }  // namespace
 
-void KeyframeImages::Add(int keyframe, const cv::Mat& gray) {
+void KeyframeImages::Add(const MapImage& image, const cv::Mat& gray) {
   cv::Mat half;
   cv::resize(gray, half, {}, 0.5, 0.5, cv::INTER_AREA);
-  cv::imencode(".jpg", half, compressed_[keyframe], {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+  cv::imencode(".jpg", half, compressed_[image], {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
 }
 
-cv::Mat KeyframeImages::Find(int keyframe) const {
-  const auto image = compressed_.find(keyframe);
-  if (image == compressed_.end()) return {};
-  return cv::imdecode(image->second, cv::IMREAD_GRAYSCALE);
+cv::Mat KeyframeImages::Find(const MapImage& image) const {
+  const auto found = compressed_.find(image);
+  if (found == compressed_.end()) return {};
+  return cv::imdecode(found->second, cv::IMREAD_GRAYSCALE);
 }
 
 void KeyframeImages::Keep(const std::function<bool(int)>& is_kept) {
   for (auto image = compressed_.begin(); image != compressed_.end();) {
-    image = is_kept(image->first) ? std::next(image) : compressed_.erase(image);
+    image = is_kept(image->first.keyframe) ? std::next(image) : compressed_.erase(image);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/camera/image_format.h"
+#include "common/config/stereo_pairs.h"
 #include "common/ros/camera_info_conversion.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/keyframe_conversion.h"
@@ -38,6 +39,15 @@ void CountFailure(DropCount* failures, const std::function<void()>& take) {
 
 }  // namespace
 
+KeyframeInput::KeyframeInput(const SensorConfig& sensor) : sensor_(sensor) {
+  const std::vector<StereoPair> pairs = StereoPairs(sensor);
+  for (int camera = 0; camera < static_cast<int>(sensor.cameras.size()); ++camera) {
+    if (IsTracked(camera, pairs)) cameras_.push_back(camera);
+    refined_.push_back(sensor.cameras[camera].parameters);
+    T_B_C_.push_back(sensor.cameras[camera].T_B_C);
+  }
+}
+
 bool KeyframeInput::Accepts(const nav_msgs::Odometry& message) {
   const auto& p = message.pose.pose.position;
   const auto& q = message.pose.pose.orientation;
@@ -49,10 +59,10 @@ bool KeyframeInput::Accepts(const nav_msgs::Odometry& message) {
 }
 
 // Rejects images of another size than calibrated: descriptors would be taken at wrong pixels.
-void KeyframeInput::AddImage(const ImageSample& image) {
+void KeyframeInput::AddImage(int camera, const ImageSample& image) {
   CountFailure(&images_, [&] {
-    CheckImageFormat(image.gray, sensor_.cameras[0].parameters);
-    assembly_.AddImage(image);
+    CheckImageFormat(image.gray, sensor_.cameras[camera].parameters);
+    assembly_.AddImage(camera, image);
   });
 }
 
@@ -77,24 +87,24 @@ void KeyframeInput::AddLines(const sensor_msgs::PointCloud& message) {
 }
 
 // CameraModel::Create() throws if the model is invalid.
-void KeyframeInput::AddCamera(const sensor_msgs::CameraInfo& message) {
-  CountFailure(&cameras_, [&] {
-    const CameraParameters camera = ToCameraParameters(message);
-    CheckSameKind(sensor_.cameras[0].parameters, camera);
-    CameraModel::Create(camera);
-    camera_ = camera;
+void KeyframeInput::AddCamera(int camera, const sensor_msgs::CameraInfo& message) {
+  CountFailure(&cameras_refused_, [&] {
+    const CameraParameters refined = ToCameraParameters(message);
+    CheckSameKind(sensor_.cameras[camera].parameters, refined);
+    CameraModel::Create(refined);
+    refined_[camera] = refined;
   });
 }
 
-void KeyframeInput::AddExtrinsics(const nav_msgs::Odometry& message) {
-  if (Accepts(message)) T_B_C_ = ToRigid(message.pose.pose);
+void KeyframeInput::AddExtrinsics(int camera, const nav_msgs::Odometry& message) {
+  if (Accepts(message)) T_B_C_[camera] = ToRigid(message.pose.pose);
 }
 
 std::optional<OdometryFrame> KeyframeInput::Pop() {
   std::optional<OdometryFrame> frame = assembly_.Pop();
   if (!frame) return std::nullopt;
   frame->T_B_C = T_B_C_;
-  frame->camera = camera_;
+  frame->refined = refined_;
   return frame;
 }
 

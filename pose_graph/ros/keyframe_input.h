@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "common/config/sensor_config.h"
 #include "common/streams/drop_counts.h"
@@ -18,16 +19,19 @@ namespace plm_vins {
 // single pose that is not finite would damage the map permanently. For use by one thread.
 class KeyframeInput {
  public:
-  explicit KeyframeInput(const SensorConfig& sensor) : sensor_(sensor) {}
+  explicit KeyframeInput(const SensorConfig& sensor);
 
-  void AddImage(const ImageSample& image);
+  // Numbers of the cameras whose images are described: all but the second ones of pairs, which show
+  // the same as the first ones.
+  const std::vector<int>& cameras() const { return cameras_; }
+  void AddImage(int camera, const ImageSample& image);
   void AddPose(const nav_msgs::Odometry& message);
   void AddPoints(const sensor_msgs::PointCloud& message);
   void AddLines(const sensor_msgs::PointCloud& message);
-  // Sets the refined camera, which applies to the following keyframes.
-  void AddCamera(const sensor_msgs::CameraInfo& message);
-  // Sets the refined T_B_C, which applies to the following keyframes.
-  void AddExtrinsics(const nav_msgs::Odometry& message);
+  // Sets a refined camera, which applies to the following keyframes.
+  void AddCamera(int camera, const sensor_msgs::CameraInfo& message);
+  // Sets the refined T_B_C of a camera, which applies to the following keyframes.
+  void AddExtrinsics(int camera, const nav_msgs::Odometry& message);
 
   // Returns the next keyframe in temporal order, or nullopt if none is complete yet.
   std::optional<OdometryFrame> Pop();
@@ -40,18 +44,19 @@ class KeyframeInput {
 
   DropCounts Drops() const {
     const DropCount without_image = {"keyframes_without_image", assembly_.without_image(), ""};
-    return {malformed_, poses_, features_, without_image, images_, cameras_};
+    return {malformed_, poses_, features_, without_image, images_, cameras_refused_};
   }
 
  private:
   SensorConfig sensor_;
   KeyframeAssembly assembly_;
-  std::optional<CameraParameters> camera_;
-  Rigid3d T_B_C_ = sensor_.cameras[0].T_B_C;
+  std::vector<int> cameras_;
+  std::vector<CameraParameters> refined_;  // by camera
+  std::vector<Rigid3d> T_B_C_;             // by camera
   DropCount malformed_{"keyframe_messages_malformed", 0, ""};
   DropCount poses_{"poses_impossible", 0, ""};
   DropCount features_{"places_impossible", 0, ""};
-  DropCount cameras_{"cameras_refused", 0, ""};
+  DropCount cameras_refused_{"cameras_refused", 0, ""};
   DropCount images_{"images_wrong_format", 0, ""};
 };
 

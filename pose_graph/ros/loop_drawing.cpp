@@ -38,6 +38,11 @@ class Half {
   cv::Point2d offset_px_;
 };
 
+cv::Size DrawnSize(const CameraModel& camera) {
+  return {cvRound(kScale * camera.parameters().width),
+          cvRound(kScale * camera.parameters().height)};
+}
+
 void DrawCorners(const LoopObservations& observations, const Half& left, const Half& right,
                  cv::Mat* picture) {
   const Rigid3d T_C_O = observations.T_O1_C.Inverse();
@@ -62,17 +67,19 @@ void DrawLines(const LoopObservations& observations, const Half& left, const Hal
 
 }  // namespace
 
-cv::Mat DrawLoop(const CameraModel& camera, const LoopObservations& observations,
+cv::Mat DrawLoop(const CameraModels& cameras, const LoopObservations& observations,
                  const cv::Mat& earlier, const cv::Mat& later) {
-  const cv::Size half(cvRound(kScale * camera.parameters().width),
-                      cvRound(kScale * camera.parameters().height));
-  cv::Mat gray(half.height, 2 * half.width, CV_8UC1, cv::Scalar(0));
-  if (!earlier.empty()) cv::resize(earlier, gray.colRange(0, half.width), half);
-  cv::resize(later, gray.colRange(half.width, 2 * half.width), half, 0, 0, cv::INTER_AREA);
+  const CameraModel& earlier_camera = *cameras[observations.earlier_camera];
+  const CameraModel& later_camera = *cameras[observations.later_camera];
+  const cv::Rect left_part({0, 0}, DrawnSize(earlier_camera));
+  const cv::Rect right_part({left_part.width, 0}, DrawnSize(later_camera));
+  cv::Mat gray((left_part | right_part).size(), CV_8UC1, cv::Scalar(0));
+  if (!earlier.empty()) cv::resize(earlier, gray(left_part), left_part.size());
+  cv::resize(later, gray(right_part), right_part.size(), 0, 0, cv::INTER_AREA);
   cv::Mat picture;
   cv::cvtColor(gray, picture, cv::COLOR_GRAY2BGR);
-  const Half left(camera, 0);
-  const Half right(camera, half.width);
+  const Half left(earlier_camera, 0);
+  const Half right(later_camera, right_part.x);
   DrawCorners(observations, left, right, &picture);
   DrawLines(observations, left, right, &picture);
   return picture;

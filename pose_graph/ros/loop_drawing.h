@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "common/camera/camera_model.h"
+#include "common/camera/camera_models.h"
 #include "pose_graph/verification/loop_refinement.h"
 
 namespace plm_vins {
@@ -12,7 +12,7 @@ namespace plm_vins {
 // resolution: each landmark in the earlier image joined with its corner in the later one (green),
 // and the lines observed in both (orange). The images are CV_8UC1 of any size; the left half is
 // black if `earlier` is empty.
-cv::Mat DrawLoop(const CameraModel& camera, const LoopObservations& observations,
+cv::Mat DrawLoop(const CameraModels& cameras, const LoopObservations& observations,
                  const cv::Mat& earlier, const cv::Mat& later);
 
 }  // namespace plm_vins

@@ -47,7 +47,7 @@ PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
       private_node_(private_node),
       receiver_(in_place_.Receiver(node)),
       config_(config),
-      camera_(CameraModel::Create(config.sensor.cameras[0].parameters)),
+      cameras_(CreateAll(config.sensor.cameras)),
       map_file_(MapFile(config.pose_graph, private_node)),
       input_(config.sensor),
       queue_(kWaitingKeyframes),
@@ -126,16 +126,12 @@ void PoseGraphNode::Subscribe() {
   const boost::function<void(const OdometryEvent&)> pass_on = [this](const OdometryEvent& event) {
     PassOnInMap(event);
   };
-  subscribers_ = {Receive(estimator + "camera_info", &PoseGraphNode::AddCamera),
-                  Receive(estimator + "extrinsic", &PoseGraphNode::AddExtrinsics),
-                  Receive(estimator + "keyframe_pose", &PoseGraphNode::AddPose),
+  subscribers_ = {Receive(estimator + "keyframe_pose", &PoseGraphNode::AddPose),
                   Receive(estimator + "keyframe_point", &PoseGraphNode::AddPoints),
                   Receive(estimator + "keyframe_line", &PoseGraphNode::AddLines),
                   Receive(estimator + "odometry", pass_on),
                   Receive(estimator + "restart", &PoseGraphNode::Restart)};
-  image_subscription_.Subscribe(
-      receiver_, private_node_, config_.sensor.cameras[0].image_topic, kQueue,
-      [this](const std::optional<ImageSample>& image) { TakeIn([&] { AddImage(image); }); });
+  SubscribeToCameras();
   services_ = {private_node_.advertiseService("save_map", &PoseGraphNode::SaveMapFile, this),
                private_node_.advertiseService("load_map", &PoseGraphNode::LoadMapFile, this),
                private_node_.advertiseService("reset", &PoseGraphNode::Reset, this)};
@@ -143,18 +139,30 @@ void PoseGraphNode::Subscribe() {
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
 }
 
-void PoseGraphNode::AddImage(const std::optional<ImageSample>& image) {
-  if (image) input_.AddImage(*image);
-  PassOn();
+void PoseGraphNode::SubscribeToCameras() {
+  for (const int camera : input_.cameras()) {
+    const std::string number = camera == 0 ? "" : std::to_string(camera);
+    const boost::function<void(const sensor_msgs::CameraInfo&)> refine =
+        [this, camera](const auto& message) { TakeIn([&] { input_.AddCamera(camera, message); }); };
+    const boost::function<void(const nav_msgs::Odometry&)> move = [this,
+                                                                   camera](const auto& message) {
+      TakeIn([&] { input_.AddExtrinsics(camera, message); });
+    };
+    subscribers_.push_back(Receive(kEstimator + ("camera_info" + number), refine));
+    subscribers_.push_back(Receive(kEstimator + ("extrinsic" + number), move));
+    const std::string name = camera == 0 ? "images" : "camera" + number + "_images";
+    image_subscriptions_.push_back(std::make_unique<ImageSubscription>(name));
+    image_subscriptions_.back()->Subscribe(receiver_, private_node_,
+                                           config_.sensor.cameras[camera].image_topic, kQueue,
+                                           [this, camera](const std::optional<ImageSample>& image) {
+                                             TakeIn([&] { AddImage(camera, image); });
+                                           });
+  }
 }
 
-void PoseGraphNode::AddCamera(const sensor_msgs::CameraInfo& message) {
-  input_.AddCamera(message);
+void PoseGraphNode::AddImage(int camera, const std::optional<ImageSample>& image) {
+  if (image) input_.AddImage(camera, *image);
   PassOn();
-}
-
-void PoseGraphNode::AddExtrinsics(const nav_msgs::Odometry& message) {
-  input_.AddExtrinsics(message);
 }
 
 void PoseGraphNode::AddPose(const OdometryEvent& event) {
@@ -257,8 +265,9 @@ void PoseGraphNode::StartWith(KeyframeMap map) {
     BeginWorld();
   }
   const std::lock_guard<std::mutex> lock(loops_mutex_);
-  loops_ = std::make_unique<LoopCloser>(LoopCloserOptions(*camera_), camera_);
-  loops_->SetMap(std::move(map));
+  auto loops = std::make_unique<LoopCloser>(LoopCloserOptions(cameras_), cameras_);
+  loops->SetMap(std::move(map));
+  loops_ = std::move(loops);
   images_ = KeyframeImages();
   PublishMap();
   const std::lock_guard<std::mutex> status_lock(status_mutex_);
@@ -313,8 +322,10 @@ void PoseGraphNode::PublishMap() {
 
 void PoseGraphNode::PublishMatch(const OdometryFrame& frame, const LoopClosure& closure) {
   if (!closure.place || match_publisher_.getNumSubscribers() == 0) return;
-  const cv::Mat picture = DrawLoop(*camera_, closure.place->observations,
-                                   images_.Find(closure.place->earlier), frame.gray);
+  const LoopObservations& seen = closure.place->observations;
+  const cv::Mat picture =
+      DrawLoop(cameras_, seen, images_.Find({closure.place->earlier, seen.earlier_camera}),
+               frame.images.at(seen.later_camera).gray);
   match_publisher_.publish(ToMessage(picture, frame.t_ns, config_.output.camera_frame));
 }
 
@@ -324,12 +335,15 @@ void PoseGraphNode::Remember(const OdometryFrame& frame) {
   shows_matches_ = shows_matches_ || match_publisher_.getNumSubscribers() > 0;
   if (!shows_matches_) return;
   const PoseGraph& graph = loops_->map().graph;
-  images_.Add(graph.size() - 1, frame.gray);
+  for (const auto& [camera, image] : frame.images) {
+    images_.Add({graph.size() - 1, camera}, image.gray);
+  }
   images_.Keep([&](int keyframe) { return graph.Has(keyframe); });
 }
 
 DropCounts PoseGraphNode::Drops() const {
-  DropCounts drops = {image_subscription_.unreadable(), errors_.count()};
+  DropCounts drops = {errors_.count()};
+  for (const auto& images : image_subscriptions_) drops.push_back(images->unreadable());
   Append(input_.Drops(), &drops);
   drops.push_back({"keyframes_too_late", keyframes_too_late_, ""});
   return drops;
@@ -347,22 +361,20 @@ void PoseGraphNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& st
   }
   status.add("keyframe_ms", status_.keyframe_ms);
   status.add("waiting_keyframes", queue_.size());
-  for (StreamMonitor* stream :
-       {&image_subscription_.stream(), &keyframe_stream_, &odometry_stream_}) {
-    stream->Report(&status);
-  }
+  for (const auto& images : image_subscriptions_) images->stream().Report(&status);
+  for (StreamMonitor* stream : {&keyframe_stream_, &odometry_stream_}) stream->Report(&status);
   for (const DropCount& drop : Drops()) status.add(drop.cause, drop.count);
 }
 
 void PoseGraphNode::ReportState(diagnostic_updater::DiagnosticStatusWrapper* status) {
   using diagnostic_msgs::DiagnosticStatus;
   const double late = keyframe_stream_.Silence() + kMaxLag;
-  if (image_subscription_.SilenceOfImages() > late) {
-    const bool silent = image_subscription_.stream().Silence() > late;
+  ImageSubscription& images = *image_subscriptions_.front();
+  if (images.SilenceOfImages() > late) {
+    const bool silent = images.stream().Silence() > late;
     status->summary(DiagnosticStatus::WARN,
                     std::string("keyframes without images: ") +
-                        (silent ? "no images on " : "no usable images on ") +
-                        image_subscription_.topic());
+                        (silent ? "no images on " : "no usable images on ") + images.topic());
   } else if (odometry_stream_.Silence() > StreamMonitor::kSilence) {
     status->summary(
         DiagnosticStatus::WARN,

@@ -70,6 +70,7 @@ class PoseGraphNode {
 
   void AdvertiseMap();
   void Subscribe();
+  void SubscribeToCameras();
   template <typename Parameter>
   ros::Subscriber Receive(const std::string& topic,
                           const boost::function<void(Parameter)>& callback);
@@ -80,9 +81,7 @@ class PoseGraphNode {
   void PublishInMap(const nav_msgs::Odometry& odometry, const MapFix& fix);
 
   // These are called with input_mutex_ held.
-  void AddImage(const std::optional<ImageSample>& image);
-  void AddCamera(const sensor_msgs::CameraInfo& message);
-  void AddExtrinsics(const nav_msgs::Odometry& message);
+  void AddImage(int camera, const std::optional<ImageSample>& image);
   void AddPose(const OdometryEvent& event);
   void AddPoints(const sensor_msgs::PointCloud& message);
   void AddLines(const sensor_msgs::PointCloud& message);
@@ -117,7 +116,7 @@ class PoseGraphNode {
   InPlaceQueue in_place_;
   ros::NodeHandle receiver_;  // its callbacks run in the receiving thread
   const Config config_;
-  const std::shared_ptr<const CameraModel> camera_;
+  const CameraModels cameras_;
   const std::string map_file_;
 
   StreamMonitor keyframe_stream_{"keyframes"};
@@ -160,7 +159,8 @@ class PoseGraphNode {
   // Declared last, so that they are destroyed first and no callback runs during destruction.
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Subscriber> subscribers_;
-  ImageSubscription image_subscription_;
+  // One for each described camera; that of camera 0 comes first.
+  std::vector<std::unique_ptr<ImageSubscription>> image_subscriptions_;
   ros::WallTimer diagnostics_timer_;
 };
 

@@ -62,10 +62,11 @@ class NearestTable {
 }  // namespace
 
 std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>& island,
-                                              const std::vector<int64_t>& without) {
+                                              int camera, const std::vector<int64_t>& without) {
   std::vector<const DescribedCorner*> views;
   for (const Keyframe* keyframe : island) {
     for (const DescribedCorner& corner : keyframe->corners) {
+      if (corner.camera != camera) continue;
       const bool is_left_out = std::binary_search(without.begin(), without.end(), corner.track);
       if (corner.p_O && !is_left_out) views.push_back(&corner);
     }

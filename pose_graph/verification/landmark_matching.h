@@ -16,10 +16,11 @@ struct DescribedLandmark {
   int64_t track = -1;
 };
 
-// Returns the landmarks of keyframes of one world, except those of the tracks `without` (sorted).
-// Each landmark appears once, in track order, with the position of its newest keyframe.
+// Returns the landmarks that a camera observes in keyframes of one world, except those of the
+// tracks `without` (sorted). Each landmark appears once, in track order, with the position of its
+// newest keyframe.
 std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>& island,
-                                              const std::vector<int64_t>& without = {});
+                                              int camera, const std::vector<int64_t>& without = {});
 
 struct MatchingOptions {
   static constexpr double kSearchRadius_px = 23;

@@ -37,6 +37,8 @@ const char* ToString(LoopGate gate);
 struct LoopCandidate {
   int earlier = -1;  // keyframe numbers
   int later = -1;
+  int earlier_camera = 0;  // of the images that show the same place
+  int later_camera = 0;
   int64_t earlier_ns = 0;
   int64_t later_ns = 0;
   std::optional<LoopGate> failed;  // gate that rejected it; nullopt if accepted

@@ -19,8 +19,10 @@ struct SeenSegment {
 // Observations that connect two visits of a place. O1 is the odometry world of the earlier visit,
 // O2 that of the later one.
 struct LoopObservations {
-  Rigid3d T_O1_C;                     // camera pose of the earlier visit
-  Rigid3d T_O2_C;                     // camera pose of the later visit
+  int earlier_camera = 0;
+  int later_camera = 0;
+  Rigid3d T_O1_C;                     // pose of the earlier camera
+  Rigid3d T_O2_C;                     // pose of the later camera
   std::vector<SeenPoint> of_earlier;  // landmarks in O1, observed by the later camera
   std::vector<SeenPoint> of_later;    // landmarks in O2, observed by the earlier camera
   std::vector<SeenSegment> lines;     // in O1, observed by the later camera

@@ -40,12 +40,14 @@ std::vector<int64_t> CommonTracks(const Island& earlier, const Island& later) {
   return common;
 }
 
-// Returns the lines of an island without duplicates, each from its newest keyframe.
+// Returns the lines that the camera of an island observes, without duplicates, each from its newest
+// keyframe.
 std::vector<SpaceSegment> LinesOf(const Island& island) {
   std::map<int64_t, SpaceSegment> by_track;
   for (const Keyframe* keyframe : island.all) {
     for (const TrackedSegment& segment : keyframe->segments) {
-      if (segment.landmark) by_track[segment.observation.id] = *segment.landmark;
+      const bool is_seen = segment.observation.camera == island.camera;
+      if (is_seen && segment.landmark) by_track[segment.observation.id] = *segment.landmark;
     }
   }
   std::vector<SpaceSegment> lines;
@@ -106,27 +108,28 @@ struct LoopVerification::Evidence {
   // Sorted. These tracks are no evidence for another visit, since odometry has tracked them
   // throughout.
   std::vector<int64_t> common_tracks;
+  std::vector<DescribedCorner> corners_of_later;
   std::vector<DescribedLandmark> landmarks_O1;
   LevelTransform T_O1_O2;
   LoopObservations all;
 };
 
-LoopVerification::LoopVerification(const LoopVerificationOptions& options,
-                                   std::shared_ptr<const CameraModel> camera)
-    : options_(options), camera_(std::move(camera)) {}
+LoopVerification::LoopVerification(const LoopVerificationOptions& options, CameraModels cameras)
+    : options_(options), cameras_(std::move(cameras)) {}
 
 LoopObservations LoopVerification::Verify(const Island& earlier, const Island& later,
                                           LoopCandidate* candidate) const {
   Evidence evidence;
-  evidence.all.T_O1_C = earlier.keyframe->T_O_C();
-  evidence.all.T_O2_C = later.keyframe->T_O_C();
-  const bool accepted = AreApart(earlier, later, candidate, &evidence) &&
-                        FindPose(earlier, *later.keyframe, candidate, &evidence) &&
-                        ManhattanAgrees(*earlier.keyframe, *later.keyframe, candidate, evidence) &&
-                        HasInliers(*later.keyframe, candidate, &evidence) &&
-                        HoldsBackwards(*earlier.keyframe, later, candidate, &evidence) &&
-                        Refine(candidate, &evidence) &&
-                        LinesAgree(earlier, *later.keyframe, candidate, &evidence);
+  evidence.corners_of_later = later.keyframe->CornersIn(later.camera);
+  evidence.all.earlier_camera = earlier.camera;
+  evidence.all.later_camera = later.camera;
+  evidence.all.T_O1_C = earlier.keyframe->T_O_C(earlier.camera);
+  evidence.all.T_O2_C = later.keyframe->T_O_C(later.camera);
+  const bool accepted =
+      AreApart(earlier, later, candidate, &evidence) && FindPose(earlier, candidate, &evidence) &&
+      ManhattanAgrees(*earlier.keyframe, *later.keyframe, candidate, evidence) &&
+      HasInliers(candidate, &evidence) && HoldsBackwards(earlier, later, candidate, &evidence) &&
+      Refine(candidate, &evidence) && LinesAgree(earlier, later, candidate, &evidence);
   if (accepted) {
     candidate->T_earlier_later =
         earlier.keyframe->T_O_L().Inverse() * evidence.T_O1_O2 * later.keyframe->T_O_L();
@@ -142,14 +145,15 @@ bool LoopVerification::AreApart(const Island& earlier, const Island& later,
   return *candidate->common_tracks <= options_.max_common_tracks;
 }
 
-bool LoopVerification::FindPose(const Island& earlier, const Keyframe& later,
-                                LoopCandidate* candidate, Evidence* evidence) const {
+bool LoopVerification::FindPose(const Island& earlier, LoopCandidate* candidate,
+                                Evidence* evidence) const {
   candidate->failed = LoopGate::kMatches;
-  evidence->landmarks_O1 = MergeLandmarks(earlier.all, evidence->common_tracks);
+  evidence->landmarks_O1 = MergeLandmarks(earlier.all, earlier.camera, evidence->common_tracks);
+  const std::vector<DescribedCorner>& corners = evidence->corners_of_later;
   std::vector<SeenPoint> seen;
   for (const LandmarkMatch& match :
-       MatchLandmarks(options_.matching, later.corners, evidence->landmarks_O1)) {
-    seen.push_back(ToSeenPoint(match, later.corners, evidence->landmarks_O1));
+       MatchLandmarks(options_.matching, corners, evidence->landmarks_O1)) {
+    seen.push_back(ToSeenPoint(match, corners, evidence->landmarks_O1));
   }
   candidate->matches = static_cast<int>(seen.size());
   if (*candidate->matches < options_.min_matches) return false;
@@ -178,13 +182,12 @@ bool LoopVerification::ManhattanAgrees(const Keyframe& earlier, const Keyframe& 
   return std::abs(*candidate->manhattan_error) <= options_.max_manhattan_error;
 }
 
-bool LoopVerification::HasInliers(const Keyframe& later, LoopCandidate* candidate,
-                                  Evidence* evidence) const {
+bool LoopVerification::HasInliers(LoopCandidate* candidate, Evidence* evidence) const {
   candidate->failed = LoopGate::kInliers;
   const Rigid3d& T_O2_C = evidence->all.T_O2_C;
   const LevelTransform T_O1_G = evidence->T_O1_O2 * LevelTransform{0, T_O2_C.translation};
-  Search search =
-      SearchAroundImages(options_, later.corners, evidence->landmarks_O1, T_O1_G, T_O2_C.rotation);
+  Search search = SearchAroundImages(options_, evidence->corners_of_later, evidence->landmarks_O1,
+                                     T_O1_G, T_O2_C.rotation);
   candidate->inliers = static_cast<int>(search.inliers.size());
   candidate->inlier_share = search.share();
   if (*candidate->inliers < options_.min_inliers) return false;
@@ -192,18 +195,19 @@ bool LoopVerification::HasInliers(const Keyframe& later, LoopCandidate* candidat
   evidence->all.of_earlier = std::move(search.inliers);
 
   candidate->failed = LoopGate::kSpread;
-  candidate->cells = CountCells(search.corners_px, camera_->parameters());
+  candidate->cells =
+      CountCells(search.corners_px, cameras_[evidence->all.later_camera]->parameters());
   return *candidate->cells >= options_.min_cells;
 }
 
-bool LoopVerification::HoldsBackwards(const Keyframe& earlier, const Island& later,
+bool LoopVerification::HoldsBackwards(const Island& earlier, const Island& later,
                                       LoopCandidate* candidate, Evidence* evidence) const {
   candidate->failed = LoopGate::kBackwards;
   const Rigid3d& T_O1_C = evidence->all.T_O1_C;
   const LevelTransform T_O2_G = evidence->T_O1_O2.Inverse() * LevelTransform{0, T_O1_C.translation};
-  Search search = SearchAroundImages(options_, earlier.corners,
-                                     MergeLandmarks(later.all, evidence->common_tracks), T_O2_G,
-                                     T_O1_C.rotation);
+  Search search = SearchAroundImages(
+      options_, earlier.keyframe->CornersIn(earlier.camera),
+      MergeLandmarks(later.all, later.camera, evidence->common_tracks), T_O2_G, T_O1_C.rotation);
   candidate->backward_inliers = static_cast<int>(search.inliers.size());
   candidate->backward_share = search.share();
   evidence->all.of_later = std::move(search.inliers);
@@ -222,12 +226,13 @@ bool LoopVerification::Refine(LoopCandidate* candidate, Evidence* evidence) cons
 }
 
 // Lines refine the pose after the points have determined it.
-bool LoopVerification::LinesAgree(const Island& earlier, const Keyframe& later,
+bool LoopVerification::LinesAgree(const Island& earlier, const Island& later,
                                   LoopCandidate* candidate, Evidence* evidence) const {
   candidate->failed = LoopGate::kLines;
   const Rigid3d T_O1_C = evidence->T_O1_O2.ToRigid() * evidence->all.T_O2_C;
   LineWitnesses witnesses =
-      FindWitnesses(options_.witnesses, *camera_, T_O1_C, LinesOf(earlier), later.segments);
+      FindWitnesses(options_.witnesses, *cameras_[later.camera], T_O1_C, LinesOf(earlier),
+                    later.keyframe->SegmentsIn(later.camera));
   candidate->visible_lines = witnesses.visible;
   candidate->line_share = witnesses.share();
   if (witnesses.visible >= options_.min_visible_lines &&

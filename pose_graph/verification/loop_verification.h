@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
 #include <vector>
 
-#include "common/camera/camera_model.h"
+#include "common/camera/camera_models.h"
 #include "pose_graph/keyframes/keyframe.h"
 #include "pose_graph/verification/landmark_matching.h"
 #include "pose_graph/verification/level_pose_ransac.h"
@@ -39,17 +38,18 @@ struct LoopVerificationOptions {
   double min_line_share = 0.15;
 };
 
-// A keyframe (an element of `all`) and its temporal neighbors, whose landmarks supplement its own.
+// An image of a keyframe (an element of `all`), and the temporal neighbors of the keyframe:
+// landmarks of the same camera there supplement those of the image.
 struct Island {
   const Keyframe* keyframe = nullptr;
+  int camera = 0;
   std::vector<const Keyframe*> all;
 };
 
-// Decides from images and landmarks alone whether two keyframes show the same place.
+// Decides from images and landmarks alone whether two images show the same place.
 class LoopVerification {
  public:
-  LoopVerification(const LoopVerificationOptions& options,
-                   std::shared_ptr<const CameraModel> camera);
+  LoopVerification(const LoopVerificationOptions& options, CameraModels cameras);
 
   // Passes the candidate through the gates from kApart to kLines. Sets the values of the gates, and
   // the gate that rejected the candidate or, if none did, the relative pose with covariance.
@@ -64,19 +64,18 @@ class LoopVerification {
   // to itself before it is tested; the last one clears it.
   bool AreApart(const Island& earlier, const Island& later, LoopCandidate* candidate,
                 Evidence* evidence) const;
-  bool FindPose(const Island& earlier, const Keyframe& later, LoopCandidate* candidate,
-                Evidence* evidence) const;
+  bool FindPose(const Island& earlier, LoopCandidate* candidate, Evidence* evidence) const;
   bool ManhattanAgrees(const Keyframe& earlier, const Keyframe& later, LoopCandidate* candidate,
                        const Evidence& evidence) const;
-  bool HasInliers(const Keyframe& later, LoopCandidate* candidate, Evidence* evidence) const;
-  bool HoldsBackwards(const Keyframe& earlier, const Island& later, LoopCandidate* candidate,
+  bool HasInliers(LoopCandidate* candidate, Evidence* evidence) const;
+  bool HoldsBackwards(const Island& earlier, const Island& later, LoopCandidate* candidate,
                       Evidence* evidence) const;
   bool Refine(LoopCandidate* candidate, Evidence* evidence) const;
-  bool LinesAgree(const Island& earlier, const Keyframe& later, LoopCandidate* candidate,
+  bool LinesAgree(const Island& earlier, const Island& later, LoopCandidate* candidate,
                   Evidence* evidence) const;
 
   LoopVerificationOptions options_;
-  std::shared_ptr<const CameraModel> camera_;
+  CameraModels cameras_;
 };
 
 }  // namespace plm_vins

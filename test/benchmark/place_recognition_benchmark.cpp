@@ -94,9 +94,9 @@ std::optional<bool> SamePlace(const Place& a, const Place& b) {
 }
 
 // Computes the same scores as CornerIndex, but by comparing all descriptors with each other.
-std::map<int, double> ScoresByBruteForce(const std::vector<Place>& places, int query,
-                                         int max_distance) {
-  std::map<int, double> scores;
+std::map<MapImage, double> ScoresByBruteForce(const std::vector<Place>& places, int query,
+                                              int max_distance) {
+  std::map<MapImage, double> scores;
   for (const Descriptor& descriptor : places[query].descriptors) {
     std::vector<int> images;
     for (int i = 0; i < query; ++i) {
@@ -106,12 +106,12 @@ std::map<int, double> ScoresByBruteForce(const std::vector<Place>& places, int q
       });
       if (any) images.push_back(i);
     }
-    for (const int image : images) scores[image] += std::log((query + 1.0) / images.size());
+    for (const int image : images) scores[{image, 0}] += std::log((query + 1.0) / images.size());
   }
   return scores;
 }
 
-using ScoreFunction = std::function<std::map<int, double>(int query)>;
+using ScoreFunction = std::function<std::map<MapImage, double>(int query)>;
 
 // Counts the images whose place was shown before, and those whose best candidate shows it.
 struct TopHits {
@@ -139,7 +139,7 @@ void Measure(const std::string& name, const std::vector<Place>& places,
     std::vector<Pair> candidates;
     for (size_t j = 0; j < i; ++j) {
       const auto same_place = SamePlace(places[i], places[j]);
-      if (same_place) candidates.push_back({scores[static_cast<int>(j)], *same_place});
+      if (same_place) candidates.push_back({scores[{static_cast<int>(j), 0}], *same_place});
     }
     top.Add(candidates);
     pairs.insert(pairs.end(), candidates.begin(), candidates.end());
@@ -161,7 +161,7 @@ void MeasureIndex(const std::vector<Place>& places, const CornerIndexOptions& op
       std::to_string(options.tables) + " tables of " + std::to_string(options.bits) + " bits";
   Measure(name, places, [&](int query) {
     auto scores = index.Scores(places[query].descriptors);
-    index.Add(query, places[query].descriptors);
+    index.Add({query, 0}, places[query].descriptors);
     return scores;
   });
 }

@@ -61,15 +61,15 @@ TEST(AdjustedMapTest, RebuildsAMapAtAMinimum) {
 TEST(AdjustedMapTest, UsesTheAdjustedExtrinsics) {
   const DriftingFlight flight(DriftingFlightOptions{});
   AdjustedMap truth = TruthOf(flight);
-  truth.T_B_C.translation.x() += 0.05;
+  truth.T_B_C[0].translation.x() += 0.05;
   KeyframeMap moved = flight.map();
   MoveNodes(truth, &moved);
 
   const KeyframeMap rebuilt = RebuiltMap(truth, moved);
 
   for (int i = 0; i < rebuilt.graph.size(); ++i) {
-    const Rigid3d T_M_C = flight.True(i) * truth.T_B_C;
-    EXPECT_LT((rebuilt.T_M_C(i).translation - T_M_C.translation).norm(), 1e-6) << i;
+    const Rigid3d T_M_C = flight.True(i) * truth.T_B_C[0];
+    EXPECT_LT((rebuilt.T_M_C({i, 0}).translation - T_M_C.translation).norm(), 1e-6) << i;
   }
 }
 
@@ -77,7 +77,7 @@ TEST(AdjustedMapTest, UsesTheAdjustedExtrinsics) {
 TEST(AdjustedMapTest, KeepsUnadjustedKeyframes) {
   const DriftingFlight flight(DriftingFlightOptions{});
   AdjustedMap truth = TruthOf(flight);
-  truth.T_B_C.translation.x() += 0.05;
+  truth.T_B_C[0].translation.x() += 0.05;
   for (int i = 0; i < 10; ++i) truth.T_M_B.erase(i);
   const Eigen::Vector3d p_M(4, 5, 6);
   truth.p_M[{0, flight.map().keyframes[3].corners.front().track}] = p_M;
@@ -87,8 +87,9 @@ TEST(AdjustedMapTest, KeepsUnadjustedKeyframes) {
   const KeyframeMap rebuilt = RebuiltMap(truth, moved);
 
   for (int i = 0; i < 10; ++i) {
-    EXPECT_EQ(rebuilt.T_M_C(i).translation, flight.map().T_M_C(i).translation) << i;
-    EXPECT_EQ(rebuilt.keyframes[i].T_B_C.translation, flight.map().keyframes[i].T_B_C.translation);
+    EXPECT_EQ(rebuilt.T_M_C({i, 0}).translation, flight.map().T_M_C({i, 0}).translation) << i;
+    EXPECT_EQ(rebuilt.keyframes[i].T_B_C[0].translation,
+              flight.map().keyframes[i].T_B_C[0].translation);
   }
   const DescribedCorner& corner = rebuilt.keyframes[3].corners.front();
   EXPECT_LT((rebuilt.T_M_O(3) * corner.p_O->cast<double>() - p_M).norm(), 1e-5);

@@ -125,12 +125,13 @@ class DriftingFlight {
     keyframe.t_ns = Told_ns(t_ns);
     keyframe.world = IsRestarted(t_ns) ? 1 : 0;
     keyframe.T_O_B = {T_O_W.rotation() * truth.T_W_B.rotation, in_O(truth.T_W_B.translation)};
-    keyframe.T_B_C = {Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.1, 0, 0.05}};
-    if (number < options_.loaded) keyframe.T_B_C.translation.y() += 0.3;
+    Rigid3d T_B_C(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.1, 0, 0.05});
+    if (number < options_.loaded) T_B_C.translation.y() += 0.3;
+    const Rigid3d T_B_C1 = T_B_C * Rigid3d(Eigen::Quaterniond::Identity(), {0.2, 0, 0});
+    keyframe.T_B_C = {T_B_C, T_B_C1};
     keyframe.covariance = 1e-4 * (number + 1) * Matrix4d::Identity();
     const int visit = number / options_.keyframes_of_visit;
-    const Rigid3d T_C_W = (truth.T_W_B * keyframe.T_B_C).Inverse();
-    const Rigid3d T_B_C1 = keyframe.T_B_C * Rigid3d(Eigen::Quaterniond::Identity(), {0.2, 0, 0});
+    const Rigid3d T_C_W = (truth.T_W_B * T_B_C).Inverse();
     PointFrame& frame = frames_.emplace_back();
     RecognizedPlace place;
     for (size_t i = 0; i < points_.size(); ++i) {
@@ -159,7 +160,7 @@ class DriftingFlight {
     odometry.state.SetPose(keyframe.T_O_B);
     odometry.state.velocity() = options_.scale * (T_O_W.rotation() * truth.v_W);
     odometry.imu_noise = noise_;
-    odometry.calibration.cameras = {{{}, keyframe.T_B_C}, {{}, T_B_C1}};
+    odometry.calibration.cameras = {{{}, T_B_C}, {{}, T_B_C1}};
     if (!place.observations.of_earlier.empty()) places_[node] = place;
   }
 

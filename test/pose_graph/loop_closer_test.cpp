@@ -32,10 +32,10 @@ class LoopCloserTest : public ::testing::Test {
     OdometryFrame frame;
     frame.t_ns = ToNanoseconds(t);
     frame.covariance.diagonal().head<3>().setConstant(variance_rate_ * t);
-    frame.T_B_C = testing::LookingAhead();
+    frame.T_B_C = {testing::LookingAhead()};
     frame.T_O_B = T_O_W.ToRigid() * Rigid3d(Eigen::Quaterniond::Identity(), {0, y, 0});
-    frame.gray = painting_(cv::Rect(left, 280, 752, 480)).clone();
-    const Rigid3d T_O_C = frame.T_O_B * frame.T_B_C;
+    frame.images[0].gray = painting_(cv::Rect(left, 280, 752, 480)).clone();
+    const Rigid3d T_O_C = frame.T_O_B * frame.T_B_C[0];
     for (int u = 40; u < 720; u += 40) {
       for (int v = 40; v < 450; v += 40) {
         // One id for each place of the painting within a visit.
@@ -51,6 +51,17 @@ class LoopCloserTest : public ::testing::Test {
       }
     }
     return frame;
+  }
+
+  // Adds a camera that looks back. With the body turned around, it sees what camera 0 saw before.
+  static void AddCameraThatLooksBack(bool turned, OdometryFrame* frame) {
+    const Rigid3d around(Eigen::Quaterniond(0, 0, 0, 1), {0, 0, 0});
+    frame->T_B_C.push_back(around * frame->T_B_C[0]);
+    frame->images[1].gray = cv::Mat(480, 752, CV_8UC1, cv::Scalar(100));
+    if (!turned) return;
+    frame->T_O_B = frame->T_O_B * around;
+    std::swap(frame->images[0], frame->images[1]);
+    for (TrackedCorner& corner : frame->corners) corner.observation.camera = 1;
   }
 
   struct Range {
@@ -70,6 +81,7 @@ class LoopCloserTest : public ::testing::Test {
     for (int i = 0; i <= std::lround((range.to - range.from) / 0.4); ++i) {
       OdometryFrame frame = FrameAt(range.from + 0.4 * i, t + 0.4 * i, T_O_W);
       frame.restarted = restarted && i == 0;
+      if (looks_back_) AddCameraThatLooksBack(/*turned=*/t > 0, &frame);
       last = loops->Add(frame);
       for (const LoopCandidate& candidate : last.candidates) {
         if (!candidate.failed) ++accepted_;
@@ -81,7 +93,9 @@ class LoopCloserTest : public ::testing::Test {
   }
 
   std::shared_ptr<const CameraModel> camera_ = testing::SimpleCamera();
+  CameraModels cameras_ = {camera_};
   cv::Mat painting_;
+  bool looks_back_ = false;
   int64_t first_track_ = 0;
   double variance_rate_ = 1e-4;  // of odometry's position estimate [m^2/s]
   int accepted_ = 0;
@@ -92,7 +106,7 @@ class LoopCloserTest : public ::testing::Test {
 const LevelTransform kDrift = {0.001, {0.05, -0.08, 0.03}};
 
 TEST_F(LoopCloserTest, UndoesTheDriftOfASecondVisit) {
-  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
   const LoopClosure first = Slide(&loops, 0, LevelTransform());
   ASSERT_TRUE(first.fix);
   EXPECT_EQ(first.fix->T_M_O.ToVector(), Vector4d::Zero());
@@ -112,8 +126,32 @@ TEST_F(LoopCloserTest, UndoesTheDriftOfASecondVisit) {
   EXPECT_LT(second.fix->covariance(0, 0), 0.5 * second.fix->odometry_covariance(0, 0));
 }
 
+TEST_F(LoopCloserTest, RecognizesByAnotherCameraWhatTheFirstOneSaw) {
+  looks_back_ = true;
+  cameras_.push_back(camera_);
+  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  Slide(&loops, 0, LevelTransform());
+  const LoopClosure second = Slide(&loops, 60, kDrift);
+  EXPECT_GT(accepted_, 3);
+  ASSERT_FALSE(second.candidates.empty());
+  EXPECT_EQ(second.candidates.back().later_camera, 1);
+  EXPECT_EQ(second.candidates.back().earlier_camera, 0);
+  ASSERT_TRUE(second.fix);
+  const LevelTransform rest = loops.map().T_M_O(0).Inverse() * second.fix->T_M_O * kDrift;
+  EXPECT_LT(rest.translation.norm(), 0.05);
+  EXPECT_NEAR(rest.yaw, 0, 0.01);
+}
+
+TEST_F(LoopCloserTest, RejectsAMapOfMoreCameras) {
+  looks_back_ = true;
+  LoopCloser of_two(LoopCloserOptions({camera_, camera_}), {camera_, camera_});
+  Slide(&of_two, 0, LevelTransform());
+  LoopCloser of_one(LoopCloserOptions(cameras_), cameras_);
+  EXPECT_THROW(of_one.SetMap(of_two.map()), std::runtime_error);
+}
+
 TEST_F(LoopCloserTest, RelocalizesAfterARestart) {
-  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
   Slide(&loops, 0, LevelTransform());
   const LevelTransform T_O_W = {2.0, {7, 8, 9}};
   const LoopClosure found = Slide(&loops, 10, T_O_W, /*restarted=*/true);
@@ -123,18 +161,18 @@ TEST_F(LoopCloserTest, RelocalizesAfterARestart) {
 }
 
 TEST_F(LoopCloserTest, NewWorldIsNotLocated) {
-  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
   Slide(&loops, 0, LevelTransform());
   OdometryFrame frame = FrameAt(0, 10, {2.0, {7, 8, 9}});
   frame.restarted = true;
-  frame.gray = cv::Scalar(100);
+  frame.images[0].gray = cv::Scalar(100);
   EXPECT_FALSE(loops.Add(frame).fix);
 }
 
 TEST_F(LoopCloserTest, StartsInAnEarlierMap) {
-  LoopCloser before(LoopCloserOptions(*camera_), camera_);
+  LoopCloser before(LoopCloserOptions(cameras_), cameras_);
   Slide(&before, 0, LevelTransform());
-  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
   loops.SetMap(before.map());
   const LevelTransform T_O_W = {-1.0, {2, 1, 0}};
   const LoopClosure found = Slide(&loops, 5, T_O_W);
@@ -143,9 +181,9 @@ TEST_F(LoopCloserTest, StartsInAnEarlierMap) {
 }
 
 TEST_F(LoopCloserTest, DoesNotMoveALoadedMap) {
-  LoopCloser before(LoopCloserOptions(*camera_), camera_);
+  LoopCloser before(LoopCloserOptions(cameras_), cameras_);
   Slide(&before, 0, LevelTransform());
-  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
   loops.SetMap(before.map());
   Slide(&loops, 10, LevelTransform());
   const LevelTransform drift = {0, {0.5, 0, 0}};
@@ -154,7 +192,7 @@ TEST_F(LoopCloserTest, DoesNotMoveALoadedMap) {
     const double y = 3 + 0.5 * std::min(i, kSteps - i);
     OdometryFrame frame = FrameAt(0, 20 + 0.4 * i, LevelTransform());
     frame.T_O_B.translation = Eigen::Vector3d(0, y, 0) + drift.translation * i / kSteps;
-    frame.gray = cv::Scalar(100);
+    frame.images[0].gray = cv::Scalar(100);
     frame.corners.clear();
     loops.Add(frame);
   }
@@ -170,7 +208,7 @@ TEST_F(LoopCloserTest, DoesNotMoveALoadedMap) {
 
 // A world that is connected with the map meets one that is not.
 TEST_F(LoopCloserTest, MovesAWorldToTheMap) {
-  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
   Slide(&loops, 0, LevelTransform(), false, {-9, -5});
   const int second = loops.map().graph.size();
   EXPECT_FALSE(Slide(&loops, 60, {2.0, {70, 80, 9}}, /*restarted=*/true, {5, 9}).fix);
@@ -186,7 +224,7 @@ TEST_F(LoopCloserTest, MovesAWorldToTheMap) {
 // Odometry after a blind stretch with dead reckoning has a large covariance.
 TEST_F(LoopCloserTest, AcceptsALoopWithinTheDrift) {
   variance_rate_ = 0;
-  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
   Slide(&loops, 0, LevelTransform());
   variance_rate_ = 16.0 / 60;  // 4 m by the second visit
   const LevelTransform drift = {0, {0, 4, 0}};
@@ -197,11 +235,11 @@ TEST_F(LoopCloserTest, AcceptsALoopWithinTheDrift) {
 }
 
 TEST_F(LoopCloserTest, RejectsPerceptualAliasing) {
-  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
   Slide(&loops, 0, LevelTransform());
   // Odometry reaches the same images by a path of 10 m.
   OdometryFrame on_the_way = FrameAt(0, 30, {0, {0, 5, 0}});
-  on_the_way.gray = cv::Scalar(100);
+  on_the_way.images[0].gray = cv::Scalar(100);
   loops.Add(on_the_way);
   const LoopClosure twin = Slide(&loops, 60, {0, {0, 10, 0}});
   EXPECT_EQ(accepted_, 0);
@@ -213,7 +251,7 @@ TEST_F(LoopCloserTest, RejectsPerceptualAliasing) {
 // The wall was moved by more than the covariance of odometry, but by less than its possible drift.
 TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
   const LevelTransform moved = {0, {0, 0.3, 0}};
-  LoopCloser unsure(LoopCloserOptions(*camera_), camera_);
+  LoopCloser unsure(LoopCloserOptions(cameras_), cameras_);
   Slide(&unsure, 0, LevelTransform());
   const LoopClosure accepted = Slide(&unsure, 60, moved);
   ASSERT_TRUE(accepted.place);
@@ -221,7 +259,7 @@ TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
 
   variance_rate_ = 0;
   accepted_ = 0;
-  LoopCloser sure(LoopCloserOptions(*camera_), camera_);
+  LoopCloser sure(LoopCloserOptions(cameras_), cameras_);
   Slide(&sure, 0, LevelTransform());
   const LoopClosure refused = Slide(&sure, 60, moved);
   EXPECT_EQ(accepted_, 0);
@@ -236,7 +274,7 @@ TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
 
 // Odometry that has just started may have a wrong scale.
 TEST_F(LoopCloserTest, DropsALoopThatAllLaterOnesContradict) {
-  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
   Slide(&loops, 0, LevelTransform());
   variance_rate_ = 1e-7;
   const LevelTransform at_first = {0.016, {0.12, -0.1, 0.05}};
@@ -255,7 +293,7 @@ TEST_F(LoopCloserTest, DropsALoopThatAllLaterOnesContradict) {
 // Odometry jumps after the first loop of the second visit. The next loop, which contradicts it, is
 // less certain.
 TEST_F(LoopCloserTest, DroppedLoopDoesNotLocateAWorld) {
-  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
   Slide(&loops, 0, LevelTransform());
   first_track_ += 100'000'000;
   LoopClosure closure;
@@ -278,7 +316,7 @@ TEST_F(LoopCloserTest, DroppedLoopDoesNotLocateAWorld) {
 }
 
 TEST_F(LoopCloserTest, MapSizeIsBoundedOverManyVisits) {
-  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
   std::vector<int> sizes;
   for (int visit = 0; visit < 8; ++visit) {
     Slide(&loops, 60 * visit, kDrift);
@@ -298,7 +336,7 @@ TEST_F(LoopCloserTest, IsTheSameForTheSameInput) {
   std::vector<Vector4d> fixes;
   for (int run = 0; run < 2; ++run) {
     first_track_ = 0;
-    LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+    LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
     Slide(&loops, 0, LevelTransform());
     fixes.push_back(Slide(&loops, 60, kDrift).fix->T_M_O.ToVector());
   }

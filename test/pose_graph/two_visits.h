@@ -87,8 +87,8 @@ inline Keyframe Visit(const Wall& wall, const CameraModel& camera, const Rigid3d
   keyframe.t_ns = t_ns;
   keyframe.world = options.world;
   keyframe.T_O_B = options.T_O_W.ToRigid() * T_W_B;
-  keyframe.T_B_C = LookingAhead();
-  const Rigid3d T_C_W = (T_W_B * keyframe.T_B_C).Inverse();
+  keyframe.T_B_C = {LookingAhead()};
+  const Rigid3d T_C_W = (T_W_B * keyframe.T_B_C[0]).Inverse();
   for (size_t i = 0; i < wall.points.size(); ++i) {
     const Eigen::Vector3d p_C = T_C_W * wall.points[i].p_W;
     const auto uv_px = camera.Project(p_C);

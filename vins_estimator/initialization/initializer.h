@@ -10,7 +10,7 @@
 #include "common/config/config.h"
 #include "common/measurements.h"
 #include "vins_estimator/imu/standstill_detector.h"
-#include "vins_estimator/initialization/extrinsic_calibrator.h"
+#include "vins_estimator/rotation_calibration/extrinsic_calibrator.h"
 #include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {

@@ -4,12 +4,12 @@
 #include "common/format.h"
 #include "common/geometry/so3.h"
 #include "vins_estimator/imu/preintegration.h"
-#include "vins_estimator/initialization/global_sfm.h"
-#include "vins_estimator/initialization/relative_pose.h"
-#include "vins_estimator/initialization/stereo_structure.h"
-#include "vins_estimator/initialization/tracks.h"
 #include "vins_estimator/initialization/visual_inertial_alignment.h"
 #include "vins_estimator/initialization/visual_inertial_bundle.h"
+#include "vins_estimator/structure_from_motion/global_sfm.h"
+#include "vins_estimator/structure_from_motion/relative_pose.h"
+#include "vins_estimator/structure_from_motion/stereo_structure.h"
+#include "vins_estimator/structure_from_motion/tracks.h"
 
 namespace plm_vins {
 namespace {

@@ -8,6 +8,10 @@
 #include <cmath>
 #include <memory>
 
+#include "vins_estimator/equations/chain_variables.h"
+#include "vins_estimator/equations/normal_equations.h"
+#include "vins_estimator/equations/term_evaluation.h"
+#include "vins_estimator/equations/window_problem.h"
 #include "vins_estimator/factors/bundle_priors.h"
 #include "vins_estimator/factors/depth_factor.h"
 #include "vins_estimator/factors/imu_factor.h"
@@ -15,11 +19,7 @@
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/geometry/depth_limits.h"
 #include "vins_estimator/geometry/point_in_host.h"
-#include "vins_estimator/least_squares/chain_variables.h"
-#include "vins_estimator/least_squares/normal_equations.h"
-#include "vins_estimator/least_squares/term_evaluation.h"
-#include "vins_estimator/least_squares/window_problem.h"
-#include "vins_estimator/optimization/levenberg_marquardt.h"
+#include "vins_estimator/solver/levenberg_marquardt.h"
 #include "vins_estimator/uncertainty/motion_evidence.h"
 
 namespace plm_vins {

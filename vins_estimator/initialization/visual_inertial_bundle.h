@@ -9,8 +9,8 @@
 
 #include "common/geometry/rigid3.h"
 #include "vins_estimator/imu/preintegration.h"
-#include "vins_estimator/initialization/tracks.h"
 #include "vins_estimator/state/frame_state.h"
+#include "vins_estimator/structure_from_motion/tracks.h"
 
 namespace plm_vins {
 

@@ -3,12 +3,11 @@
 
 namespace plm_vins {
 
-std::vector<PixelResidual> PixelResiduals(const LocalMap& map, int64_t t_ns,
-                                          const CameraParameters& camera) {
+std::vector<PixelResidual> PixelResiduals(const LocalMap& map, const ImageKey& image,
+                                          const CameraParameters& configured) {
   const SlidingWindow& window = map.window;
-  constexpr int kCamera = 0;
-  const auto model = CameraModel::Create(camera.With(window.cameras[kCamera].ray_intrinsics));
-  const ImageKey image{t_ns, kCamera};
+  const auto model =
+      CameraModel::Create(configured.With(window.cameras[image.camera].ray_intrinsics));
   const Rigid3d T_C_W = window.T_W_C(image).Inverse();
   std::vector<PixelResidual> residuals;
   for (const auto& [id, point] : map.points.landmarks()) {

@@ -16,9 +16,9 @@ struct PixelResidual {
   Eigen::Vector2d error_px = Eigen::Vector2d::Zero();  // predicted minus observed
 };
 
-// Returns the residuals of the optimized points in one frame of the window. `camera` is the
-// configured camera; rays are those of the window's ray_intrinsics.
-std::vector<PixelResidual> PixelResiduals(const LocalMap& map, int64_t t_ns,
-                                          const CameraParameters& camera);
+// Returns the residuals of the optimized points in one image of the window. `configured` are the
+// parameters of its camera; rays are those of the window's ray_intrinsics.
+std::vector<PixelResidual> PixelResiduals(const LocalMap& map, const ImageKey& image,
+                                          const CameraParameters& configured);
 
 }  // namespace plm_vins

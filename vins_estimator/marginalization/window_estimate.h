@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/config/sensor_config.h"
-#include "vins_estimator/least_squares/marginalization_prior.h"
+#include "vins_estimator/equations/marginalization_prior.h"
 #include "vins_estimator/map/local_map.h"
 #include "vins_estimator/problem/problem_options.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "vins_estimator/least_squares/normal_equations.h"
+#include "vins_estimator/equations/normal_equations.h"
 #include "vins_estimator/problem/problem_builder.h"
 
 namespace plm_vins {

@@ -2,6 +2,7 @@
 #include "vins_estimator/output/placed_features.h"
 
 #include <unordered_map>
+#include <unordered_set>
 
 namespace plm_vins {
 
@@ -10,8 +11,9 @@ std::vector<TrackedCorner> PlaceCorners(const PointFrame& frame,
   std::unordered_map<int64_t, Eigen::Vector3d> places;
   for (const MapPoint& landmark : landmarks) places.emplace(landmark.id, landmark.p_W);
   std::vector<TrackedCorner> corners;
+  std::unordered_set<int64_t> ids;
   for (const PointObservation& observation : frame.points) {
-    if (observation.camera != 0) continue;
+    if (!ids.insert(observation.id).second) continue;
     TrackedCorner& corner = corners.emplace_back();
     corner.observation = observation;
     const auto place = places.find(observation.id);
@@ -27,8 +29,9 @@ std::vector<TrackedSegment> PlaceSegments(const LineFrame& frame,
     places.emplace(landmark.id, SpaceSegment{landmark.start_W, landmark.end_W});
   }
   std::vector<TrackedSegment> segments;
+  std::unordered_set<int64_t> ids;
   for (const LineObservation& observation : frame.lines) {
-    if (observation.camera != 0) continue;
+    if (!ids.insert(observation.id).second) continue;
     TrackedSegment& segment = segments.emplace_back();
     segment.observation = observation;
     const auto place = places.find(observation.id);

@@ -9,8 +9,8 @@
 
 namespace plm_vins {
 
-// Returns the features of camera 0 together with the positions of their landmarks. A line that was
-// merged into another landmark has no position.
+// Returns each feature, as the first camera that observes it does, together with the position of
+// its landmark. A line that was merged into another landmark has no position.
 std::vector<TrackedCorner> PlaceCorners(const PointFrame& frame,
                                         const std::vector<MapPoint>& landmarks);
 std::vector<TrackedSegment> PlaceSegments(const LineFrame& frame,

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "common/config/sensor_config.h"
-#include "vins_estimator/least_squares/marginalization_prior.h"
+#include "vins_estimator/equations/marginalization_prior.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/problem_options.h"
 

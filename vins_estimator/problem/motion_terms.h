@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "vins_estimator/least_squares/window_problem.h"
+#include "vins_estimator/equations/window_problem.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/problem_options.h"
 #include "vins_estimator/problem/window_variables.h"

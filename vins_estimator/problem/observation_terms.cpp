@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/problem/observation_terms.h"
 
+#include "vins_estimator/equations/chain_variables.h"
 #include "vins_estimator/factors/depth_factor.h"
 #include "vins_estimator/factors/intrinsics_factor.h"
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/point_factor.h"
-#include "vins_estimator/least_squares/chain_variables.h"
 #include "vins_estimator/map/landmark_map.h"
 #include "vins_estimator/problem/expected_rays.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/camera/camera_model.h"
-#include "vins_estimator/least_squares/window_problem.h"
+#include "vins_estimator/equations/window_problem.h"
 #include "vins_estimator/map/line_landmark.h"
 #include "vins_estimator/map/point_landmark.h"
 #include "vins_estimator/map/sliding_window.h"

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "vins_estimator/least_squares/window_problem.h"
+#include "vins_estimator/equations/window_problem.h"
 #include "vins_estimator/map/local_map.h"
 #include "vins_estimator/problem/motion_terms.h"
 #include "vins_estimator/problem/observation_terms.h"

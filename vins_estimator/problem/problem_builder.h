@@ -6,8 +6,8 @@
 #include <cstddef>
 
 #include "common/measurements.h"
-#include "vins_estimator/least_squares/marginalization_prior.h"
-#include "vins_estimator/least_squares/window_problem.h"
+#include "vins_estimator/equations/marginalization_prior.h"
+#include "vins_estimator/equations/window_problem.h"
 #include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/point_map.h"
 #include "vins_estimator/map/sliding_window.h"

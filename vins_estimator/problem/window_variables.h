@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <functional>
 
-#include "vins_estimator/least_squares/block_id.h"
-#include "vins_estimator/least_squares/marginalization_prior.h"
-#include "vins_estimator/least_squares/window_problem.h"
+#include "vins_estimator/equations/block_id.h"
+#include "vins_estimator/equations/marginalization_prior.h"
+#include "vins_estimator/equations/window_problem.h"
 #include "vins_estimator/map/sliding_window.h"
 
 namespace plm_vins {

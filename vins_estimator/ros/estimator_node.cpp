@@ -54,7 +54,7 @@ EstimatorNode::EstimatorNode(const Config& config, const ros::NodeHandle& node,
       diagnostics_(config.sensor.imu_noise, node_.resolveName(config.sensor.imu_topic),
                    node_.resolveName(kPointTopic), node_.resolveName(kLineTopic)),
       stage_(config, kMaxWait),
-      publisher_(config.output, private_node_),
+      publisher_(config.output, static_cast<int>(config.sensor.cameras.size()), private_node_),
       diagnostics_updater_(node, private_node, private_node.getNamespace()) {
   WarnWithoutFileAtEnd();
   WarnWithoutCalibrationAtEnd();

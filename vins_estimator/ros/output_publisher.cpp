@@ -36,7 +36,8 @@ double Distance(const geometry_msgs::Point& a, const geometry_msgs::Point& b) {
 
 }  // namespace
 
-OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node)
+OutputPublisher::OutputPublisher(const OutputConfig& frames, int cameras,
+                                 ros::NodeHandle private_node)
     : frames_(frames),
       line_history_(frames.world_frame),
       restart_(private_node.advertise<std_msgs::Bool>("restart", 10)),
@@ -50,11 +51,15 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle pri
       history_lines_cloud_(AdvertiseLineHistory(private_node)),
       camera_pose_visual_(
           private_node.advertise<visualization_msgs::MarkerArray>("camera_pose_visual", kQueue)),
-      extrinsic_(private_node.advertise<nav_msgs::Odometry>("extrinsic", kQueue)),
-      camera_info_(private_node.advertise<sensor_msgs::CameraInfo>("camera_info", 10)),
       keyframe_line_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_line", kQueue)),
       keyframe_point_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_point", kQueue)),
       keyframe_pose_(private_node.advertise<nav_msgs::Odometry>("keyframe_pose", kQueue)) {
+  for (int camera = 0; camera < cameras; ++camera) {
+    const std::string number = camera == 0 ? "" : std::to_string(camera);
+    extrinsics_.push_back(private_node.advertise<nav_msgs::Odometry>("extrinsic" + number, kQueue));
+    camera_infos_.push_back(
+        private_node.advertise<sensor_msgs::CameraInfo>("camera_info" + number, 10));
+  }
   if (frames.publish_tf && !frames.base_frame.empty()) {
     base_.emplace(frames.body_frame, frames.base_frame);
   }
@@ -87,10 +92,12 @@ void OutputPublisher::Publish(const EstimatedFrame& frame) {
   PublishTransforms(output);
   PublishIfWanted(camera_pose_,
                   [&] { return ToOdometry(t_ns, T_W_C, world, frames_.camera_frame); });
-  PublishIfWanted(extrinsic_, [&] {
-    return ToOdometry(t_ns, output.calibration.cameras[0].T_B_C, frames_.body_frame,
-                      frames_.camera_frame);
-  });
+  for (size_t i = 0; i < extrinsics_.size(); ++i) {
+    PublishIfWanted(extrinsics_[i], [&] {
+      return ToOdometry(t_ns, output.calibration.cameras[i].T_B_C, frames_.body_frame,
+                        CameraFrame(i));
+    });
+  }
   PublishIfWanted(key_poses_, [&] { return ToKeyPoses(output.window, t_ns, world); });
   PublishIfWanted(point_cloud_, [&] { return ToPointCloud(output.points, t_ns, world); });
   PublishIfWanted(lines_cloud_, [&] { return ToLineMarker(output.lines, t_ns, world, "lines"); });
@@ -111,10 +118,11 @@ void OutputPublisher::Clear() {
 void OutputPublisher::PublishKeyframe(const EstimatedFrame& frame) {
   const EstimatorOutput& output = frame.output;
   const std::string& world = frames_.world_frame;
-  PublishIfWanted(camera_info_, [&] {
-    return ToCameraInfo(output.calibration.cameras[0].parameters, output.t_ns,
-                        frames_.camera_frame);
-  });
+  for (size_t i = 0; i < camera_infos_.size(); ++i) {
+    PublishIfWanted(camera_infos_[i], [&] {
+      return ToCameraInfo(output.calibration.cameras[i].parameters, output.t_ns, CameraFrame(i));
+    });
+  }
   PublishIfWanted(keyframe_line_, [&] {
     return ToKeyframeLines(PlaceSegments(frame.lines, output.lines), output.R_W_M, output.t_ns,
                            world);
@@ -167,6 +175,10 @@ void OutputPublisher::PublishPath(const FrameState& state) {
   path_publisher_.publish(path);  // latched, as displays may be opened during a standstill
 }
 
+std::string OutputPublisher::CameraFrame(size_t camera) const {
+  return camera == 0 ? frames_.camera_frame : frames_.camera_frame + std::to_string(camera);
+}
+
 void OutputPublisher::PublishTransforms(const EstimatorOutput& output) {
   if (!frames_.publish_tf) return;
   std::vector<geometry_msgs::TransformStamped> transforms = BodyTransforms(output);
@@ -184,8 +196,13 @@ std::vector<geometry_msgs::TransformStamped> OutputPublisher::BodyTransforms(
   const std_msgs::Header in_body = MakeHeader(output.t_ns, frames_.body_frame);
   const Rigid3d T_W_B = output.state.T_W_B();
   if (!base_) {
-    return {ToTransform(in_world, frames_.body_frame, T_W_B),
-            ToTransform(in_body, frames_.camera_frame, output.calibration.cameras[0].T_B_C)};
+    std::vector<geometry_msgs::TransformStamped> transforms = {
+        ToTransform(in_world, frames_.body_frame, T_W_B)};
+    const std::vector<CameraCalibration>& cameras = output.calibration.cameras;
+    for (size_t i = 0; i < cameras.size(); ++i) {
+      transforms.push_back(ToTransform(in_body, CameraFrame(i), cameras[i].T_B_C));
+    }
+    return transforms;
   }
   const auto T_body_base = base_->Locate();
   if (!T_body_base) return {};

@@ -21,14 +21,15 @@ namespace plm_vins {
 // key_poses, point_cloud, history_cloud, lines_cloud, history_lines_cloud, camera_pose_visual,
 // extrinsic, the inputs of a pose graph (camera_info, keyframe_pose, keyframe_point, keyframe_line,
 // and restart when a new world frame begins), and tf2 world -> body -> camera and, once known,
-// world -> manhattan. If base_frame names a frame of a robot's own tf tree, tf2 has world -> base
-// instead of body and camera. As in VINS-Mono and PL-VINS, the history topics contain the landmarks
-// that leave the window, one message per second. Messages without subscribers are not sent, except
-// odometry, tf and path. A display that is opened later receives the whole path and all past lines,
-// the latter by a callback of the node's queue; everything else must be called from one thread.
+// world -> manhattan. Names that belong to a further camera have its number (extrinsic1, camera1).
+// If base_frame names a frame of a robot's own tf tree, tf2 has world -> base instead of body and
+// camera. As in VINS-Mono and PL-VINS, the history topics contain the landmarks that leave the
+// window, one message per second. Messages without subscribers are not sent, except odometry, tf
+// and path. A display that is opened later receives the whole path and all past lines, the latter
+// by a callback of the node's queue; everything else must be called from one thread.
 class OutputPublisher {
  public:
-  OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node);
+  OutputPublisher(const OutputConfig& frames, int cameras, ros::NodeHandle private_node);
 
   void Publish(const EstimatedFrame& frame);
 
@@ -46,6 +47,7 @@ class OutputPublisher {
   };
 
   ros::Publisher AdvertiseLineHistory(ros::NodeHandle private_node);
+  std::string CameraFrame(size_t camera) const;
   void PublishPath(const FrameState& state);
   void PublishKeyframe(const EstimatedFrame& frame);
   void PublishHistory(const EstimatorOutput& output);
@@ -67,8 +69,7 @@ class OutputPublisher {
   ros::Publisher lines_cloud_;
   ros::Publisher history_lines_cloud_;
   ros::Publisher camera_pose_visual_;
-  ros::Publisher extrinsic_;
-  ros::Publisher camera_info_;
+  std::vector<ros::Publisher> extrinsics_, camera_infos_;  // by camera
   ros::Publisher keyframe_line_;
   ros::Publisher keyframe_point_;
   ros::Publisher keyframe_pose_;

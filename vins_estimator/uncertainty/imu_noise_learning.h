@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "common/imu/imu_noise.h"
-#include "vins_estimator/least_squares/normal_equations.h"
+#include "vins_estimator/equations/normal_equations.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/uncertainty/imu_noise_estimate.h"
 

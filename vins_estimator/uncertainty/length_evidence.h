@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "vins_estimator/least_squares/normal_equations.h"
+#include "vins_estimator/equations/normal_equations.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/problem_options.h"
 #include "vins_estimator/state/estimator_output.h"

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "vins_estimator/equations/normal_equations.h"
 #include "vins_estimator/imu/preintegration.h"
-#include "vins_estimator/least_squares/normal_equations.h"
 #include "vins_estimator/state/frame_state.h"
 #include "vins_estimator/uncertainty/imu_noise_evidence.h"
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "vins_estimator/equations/normal_equations.h"
 #include "vins_estimator/imu/preintegration.h"
-#include "vins_estimator/least_squares/normal_equations.h"
 #include "vins_estimator/map/sliding_window.h"
 
 namespace plm_vins {

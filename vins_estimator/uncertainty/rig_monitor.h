@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "vins_estimator/least_squares/normal_equations.h"
+#include "vins_estimator/equations/normal_equations.h"
 #include "vins_estimator/map/local_map.h"
 #include "vins_estimator/monitoring/camera_monitor.h"
 #include "vins_estimator/problem/problem_options.h"

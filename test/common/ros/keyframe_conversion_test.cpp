@@ -19,6 +19,9 @@ std::vector<TrackedSegment> Segments(const sensor_msgs::PointCloud& message) {
   return ToSegments(message, &left_out);
 }
 
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
 std::vector<TrackedCorner> TwoCorners() {
   std::vector<TrackedCorner> corners(2);
   corners[1].observation.id = 5;
@@ -47,6 +50,18 @@ TEST(KeyframePoints, SurviveARoundTrip) {
   EXPECT_EQ(*corners[0].p_O, Eigen::Vector3d(1, 2, 3));
 }
 
+TEST(KeyframePoints, CarryTheNumberOfAFurtherCamera) {
+  std::vector<TrackedCorner> corners = TwoCorners();
+  corners[1].observation.camera = 2;
+  auto message = ToKeyframePoints(corners, 0, "");
+  ASSERT_EQ(Corners(message).size(), 1u);
+  EXPECT_EQ(Corners(message)[0].observation.camera, 2);
+  for (const float wrong : {-1.0F, 4.0F, kNan}) {
+    message.channels[0].values[5] = wrong;
+    EXPECT_TRUE(Corners(message).empty()) << wrong;
+  }
+}
+
 TEST(KeyframePoints, AreRejectedWithoutOneChannelEach) {
   auto message = ToKeyframePoints(TwoCorners(), 0, "");
   message.channels[0].values.pop_back();
@@ -54,9 +69,6 @@ TEST(KeyframePoints, AreRejectedWithoutOneChannelEach) {
   message.channels.clear();
   EXPECT_THROW(Corners(message), std::invalid_argument);
 }
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Three corners, whose second one will be damaged.
 sensor_msgs::PointCloud ThreePoints() {

@@ -41,7 +41,7 @@ TEST(PipelineFrame, HasPixelsForLoopClosureOnly) {
     OdometryPipeline pipeline(config);
     int frames = 0;
     pipeline.Run(&recording, {}, 2, [&](const PipelineFrame& frame) {
-      EXPECT_EQ(frame.image.gray.empty(), !loop_closure);
+      EXPECT_EQ(frame.images.empty(), !loop_closure);
       ++frames;
     });
     EXPECT_GT(frames, 5);

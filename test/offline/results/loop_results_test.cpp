@@ -43,9 +43,9 @@ class LoopResultsTest : public ::testing::Test {
     frame.output.has_pose = true;
     frame.output.uncertainty.emplace().pose.setIdentity();
     frame.output.state.SetPose({Eigen::Quaterniond::Identity(), {x, 0, 0}});
-    frame.image.gray.create(240, 320, CV_8UC1);
+    frame.images.emplace_back().gray.create(240, 320, CV_8UC1);
     cv::RNG random(static_cast<uint64_t>(t_ns_));
-    random.fill(frame.image.gray, cv::RNG::UNIFORM, 0, 256);
+    random.fill(frame.images[0].gray, cv::RNG::UNIFORM, 0, 256);
     return frame;
   }
 
@@ -179,7 +179,7 @@ TEST_F(LoopResultsTest, StartsInAMap) {
 TEST_F(LoopResultsTest, NeedsImages) {
   LoopResults results(config_, folder_.path(), std::nullopt);
   PipelineFrame frame = FrameAt(0);
-  frame.image.gray.release();
+  frame.images.clear();
   EXPECT_THROW(results.Add(frame), std::runtime_error);
 }
 

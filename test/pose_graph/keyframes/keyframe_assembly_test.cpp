@@ -14,7 +14,9 @@ constexpr int64_t kPeriod = 50'000'000;  // of images
 
 class KeyframeAssemblyTest : public ::testing::Test {
  protected:
-  void AddImage(int64_t t_ns) { assembly_.AddImage({t_ns, cv::Mat(4, 4, CV_8UC1, cv::Scalar(7))}); }
+  void AddImage(int64_t t_ns) {
+    assembly_.AddImage(0, {t_ns, cv::Mat(4, 4, CV_8UC1, cv::Scalar(7))});
+  }
   void AddPose(int64_t t_ns) {
     assembly_.AddPose(t_ns, {Eigen::Quaterniond::Identity(), {1.0 * t_ns, 0, 0}},
                       Eigen::Matrix<double, 6, 6>::Identity());
@@ -48,19 +50,33 @@ TEST_F(KeyframeAssemblyTest, JoinsEqualStampsInAnyOrder) {
   EXPECT_EQ(frame->corners.size(), 3u);
   EXPECT_EQ(frame->segments.size(), 2u);
   EXPECT_EQ(frame->R_O_Manhattan->w(), 0.6);
-  EXPECT_EQ(frame->gray.at<uchar>(0, 0), 7);
+  EXPECT_EQ(frame->images.at(0).gray.at<uchar>(0, 0), 7);
   EXPECT_FALSE(assembly_.Pop());
+}
+
+TEST_F(KeyframeAssemblyTest, PairsImagesOfFurtherCameras) {
+  const auto gray = [](int value) { return cv::Mat(4, 4, CV_8UC1, cv::Scalar(value)); };
+  assembly_.AddImage(1, {kPeriod - 5'000'000, gray(1)});
+  assembly_.AddImage(1, {kPeriod + 1'000'000, gray(2)});
+  assembly_.AddImage(2, {kPeriod + 3'000'000, gray(3)});  // belongs to another time
+  AddImage(kPeriod);
+  AddPose(kPeriod);
+  AddTheRest(kPeriod);
+  const auto frame = assembly_.Pop();
+  ASSERT_TRUE(frame);
+  ASSERT_EQ(frame->images.size(), 2u);
+  EXPECT_EQ(frame->images.at(1).gray.at<uchar>(0, 0), 2);
 }
 
 // Under ROS the pixels belong to the message.
 TEST_F(KeyframeAssemblyTest, KeepsTheOwnerOfThePixelsWithTheFrame) {
   auto pixels = std::make_shared<std::array<uint8_t, 16>>();
-  assembly_.AddImage({5, cv::Mat(4, 4, CV_8UC1, pixels->data()), pixels});
+  assembly_.AddImage(0, {5, cv::Mat(4, 4, CV_8UC1, pixels->data()), pixels});
   AddPose(5);
   AddTheRest(5);
   auto frame = assembly_.Pop();
   ASSERT_TRUE(frame);
-  EXPECT_EQ(frame->gray.data, pixels->data());
+  EXPECT_EQ(frame->images.at(0).gray.data, pixels->data());
   const std::weak_ptr<const void> alive = std::exchange(pixels, nullptr);
   EXPECT_FALSE(alive.expired());
   frame.reset();

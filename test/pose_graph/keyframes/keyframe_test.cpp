@@ -78,10 +78,10 @@ cv::Mat Noise() {
 }
 
 TEST(MakeKeyframe, DescribesFollowedCornersAndFillsUp) {
-  const auto camera = testing::SimpleCamera();
+  const std::shared_ptr<const CameraModel> camera = testing::SimpleCamera();
   OdometryFrame frame;
-  frame.T_B_C = testing::LookingAhead();
-  frame.gray = Noise();
+  frame.T_B_C = {testing::LookingAhead()};
+  frame.images[0].gray = Noise();
   TrackedCorner corner;
   corner.observation.id = 17;
   corner.observation.uv_px = {300, 200};
@@ -89,7 +89,7 @@ TEST(MakeKeyframe, DescribesFollowedCornersAndFillsUp) {
   frame.corners.push_back(corner);
   corner.observation.uv_px = {-2, 200};  // a predicted track may be outside
   frame.corners.push_back(corner);
-  const Keyframe keyframe = MakeKeyframe(CornerSelectionOptions(), *camera, frame);
+  const Keyframe keyframe = MakeKeyframe(CornerSelectionOptions(), {camera}, frame);
   ASSERT_GT(keyframe.corners.size(), 100u);
   EXPECT_LE(keyframe.corners.size(), 300u);
   EXPECT_EQ(keyframe.corners[0].track, 17);
@@ -99,10 +99,10 @@ TEST(MakeKeyframe, DescribesFollowedCornersAndFillsUp) {
 }
 
 TEST(MakeKeyframe, UsesRefinedIntrinsicsForAllRays) {
-  const auto camera = testing::SimpleCamera();
+  const std::shared_ptr<const CameraModel> camera = testing::SimpleCamera();
   OdometryFrame frame;
-  frame.T_B_C = testing::LookingAhead();
-  frame.gray = Noise();
+  frame.T_B_C = {testing::LookingAhead()};
+  frame.images[0].gray = Noise();
   TrackedCorner& corner = frame.corners.emplace_back();
   corner.observation.uv_px = {300, 200};
   corner.observation.xy = *camera->Unproject(corner.observation.uv_px);
@@ -110,12 +110,12 @@ TEST(MakeKeyframe, UsesRefinedIntrinsicsForAllRays) {
   TrackedSegment& segment = frame.segments.emplace_back();
   segment.observation.start = *camera->Unproject(start_px);
   segment.observation.end = *camera->Unproject(end_px);
-  frame.camera = camera->parameters();
-  frame.camera->fx *= 1.01;
-  frame.camera->cy += 3;
-  const auto refined = CameraModel::Create(*frame.camera);
+  frame.refined = {camera->parameters()};
+  frame.refined[0].fx *= 1.01;
+  frame.refined[0].cy += 3;
+  const auto refined = CameraModel::Create(frame.refined[0]);
 
-  const Keyframe keyframe = MakeKeyframe(CornerSelectionOptions(), *camera, frame);
+  const Keyframe keyframe = MakeKeyframe(CornerSelectionOptions(), {camera}, frame);
   ASSERT_GT(keyframe.corners.size(), 100u);
   for (const DescribedCorner& seen : keyframe.corners) {
     const Eigen::Vector2d ray = *refined->Unproject(seen.uv_px.cast<double>());

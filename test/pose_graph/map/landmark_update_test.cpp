@@ -26,7 +26,7 @@ class UpdateLandmarksTest : public ::testing::Test {
 
   // Moves the landmarks of a keyframe along their rays, so that their images stay the same.
   static void SpoilDepths(Keyframe* keyframe) {
-    const Eigen::Vector3f from = keyframe->T_O_C().translation.cast<float>();
+    const Eigen::Vector3f from = keyframe->T_O_C(0).translation.cast<float>();
     for (DescribedCorner& corner : keyframe->corners) {
       corner.p_O = from + 1.1f * (*corner.p_O - from);
     }

@@ -17,7 +17,7 @@ class MapThinningTest : public ::testing::Test {
     Keyframe keyframe;
     keyframe.t_ns = ToNanoseconds(t);
     keyframe.world = world;
-    keyframe.T_B_C = testing::LookingAhead();
+    keyframe.T_B_C = {testing::LookingAhead()};
     keyframe.T_O_B = {
         Eigen::Quaterniond(Eigen::AngleAxisd(turn * M_PI / 180, Eigen::Vector3d::UnitZ())),
         {x, 0, 0}};

@@ -133,7 +133,7 @@ TEST_F(MapFileTest, RejectsAnotherVersion) {
   bytes[sizeof("plm_vins map")] = 9;
   Write(bytes);
   EXPECT_THAT(ErrorOfLoading(),
-              AllOf(HasSubstr("is a map of version 9, this program reads version 2"),
+              AllOf(HasSubstr("is a map of version 9, this program reads version 3"),
                     HasSubstr("; record a new map")));
 }
 

@@ -24,7 +24,7 @@ class CornerIndexTest : public ::testing::Test {
   CornerIndexTest() {
     for (int image = 0; image < 5; ++image) {
       images_.push_back(RandomDescriptors(100, image + 1));
-      index_.Add(image, images_.back());
+      index_.Add({image, 0}, images_.back());
     }
   }
 
@@ -34,8 +34,8 @@ class CornerIndexTest : public ::testing::Test {
 
 TEST_F(CornerIndexTest, FindsTheImageItself) {
   const auto scores = index_.Scores(images_[3]);
-  ASSERT_EQ(scores.count(3), 1u);
-  EXPECT_NEAR(scores.at(3), 100 * std::log(6.0), 1e-9);  // each occurs in one of five images
+  ASSERT_EQ(scores.count({3, 0}), 1u);
+  EXPECT_NEAR(scores.at({3, 0}), 100 * std::log(6.0), 1e-9);  // each occurs in one of five images
   EXPECT_EQ(scores.size(), 1u);
 }
 
@@ -43,7 +43,7 @@ TEST_F(CornerIndexTest, FindsMostCornersDespiteBitErrors) {
   simulator::Random random(9);
   std::vector<Descriptor> noisy;
   for (const Descriptor& d : images_[2]) noisy.push_back(WithFlippedBits(d, 20, &random));
-  EXPECT_GT(index_.Scores(noisy).at(2), 70 * std::log(6.0));
+  EXPECT_GT(index_.Scores(noisy).at({2, 0}), 70 * std::log(6.0));
 }
 
 TEST_F(CornerIndexTest, SharedWordAloneIsNoMatch) {
@@ -54,16 +54,16 @@ TEST_F(CornerIndexTest, SharedWordAloneIsNoMatch) {
 
 TEST_F(CornerIndexTest, WeightsByInverseDocumentFrequency) {
   const Descriptor common = images_[0].front();
-  for (int image = 1; image < 5; ++image) index_.Add(image, {common});
+  for (int image = 1; image < 5; ++image) index_.Add({image, 0}, {common});
   const auto scores = index_.Scores({common, images_[0].back()});
-  EXPECT_NEAR(scores.at(1), std::log(6.0 / 5), 1e-9);
-  EXPECT_NEAR(scores.at(0), std::log(6.0 / 5) + std::log(6.0), 1e-9);
+  EXPECT_NEAR(scores.at({1, 0}), std::log(6.0 / 5), 1e-9);
+  EXPECT_NEAR(scores.at({0, 0}), std::log(6.0 / 5) + std::log(6.0), 1e-9);
 }
 
 TEST_F(CornerIndexTest, ForgetsAnImage) {
-  index_.Remove(3, images_[3]);
+  index_.Remove({3, 0}, images_[3]);
   EXPECT_TRUE(index_.Scores(images_[3]).empty());
-  EXPECT_NEAR(index_.Scores(images_[1]).at(1), 100 * std::log(5.0), 1e-9);
+  EXPECT_NEAR(index_.Scores(images_[1]).at({1, 0}), 100 * std::log(5.0), 1e-9);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST_F(PlaceRecognitionTest, FindsARevisitedPlace) {
   See(4, 30);
   const auto candidates = See(5, 31);
   ASSERT_FALSE(candidates.empty());
-  EXPECT_NEAR(candidates.front().keyframe, 5, 1);
+  EXPECT_NEAR(candidates.front().earlier.keyframe, 5, 1);
   EXPECT_TRUE(candidates.front().similar);
 }
 

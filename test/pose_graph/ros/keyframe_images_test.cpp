@@ -10,9 +10,9 @@ cv::Mat Gray(int value) { return {48, 64, CV_8UC1, cv::Scalar(value)}; }
 
 TEST(KeyframeImages, ShowsAKeyframeAtHalfResolution) {
   KeyframeImages images;
-  images.Add(3, Gray(200));
-  images.Add(4, Gray(100));
-  const cv::Mat image = images.Find(3);
+  images.Add({3, 0}, Gray(200));
+  images.Add({4, 0}, Gray(100));
+  const cv::Mat image = images.Find({3, 0});
   ASSERT_EQ(image.size(), cv::Size(32, 24));
   ASSERT_EQ(image.type(), CV_8UC1);
   EXPECT_NEAR(image.at<uint8_t>(10, 10), 200, 2);
@@ -20,11 +20,11 @@ TEST(KeyframeImages, ShowsAKeyframeAtHalfResolution) {
 
 TEST(KeyframeImages, DropsOldKeyframes) {
   KeyframeImages images;
-  for (int keyframe = 0; keyframe < 4; ++keyframe) images.Add(keyframe, Gray(100));
+  for (int keyframe = 0; keyframe < 4; ++keyframe) images.Add({keyframe, 0}, Gray(100));
   images.Keep([](int keyframe) { return keyframe == 2; });
-  EXPECT_TRUE(images.Find(1).empty());
-  EXPECT_FALSE(images.Find(2).empty());
-  EXPECT_TRUE(images.Find(3).empty());
+  EXPECT_TRUE(images.Find({1, 0}).empty());
+  EXPECT_FALSE(images.Find({2, 0}).empty());
+  EXPECT_TRUE(images.Find({3, 0}).empty());
 }
 
 }  // namespace

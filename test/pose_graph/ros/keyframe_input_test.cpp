@@ -45,7 +45,7 @@ class KeyframeInputTest : public ::testing::Test {
     return Assemble(pose, &input);
   }
   std::optional<OdometryFrame> Assemble(const nav_msgs::Odometry& pose, KeyframeInput* input) {
-    input->AddImage({5, image_});
+    input->AddImage(0, {5, image_});
     input->AddPose(pose);
     input->AddPoints(ToKeyframePoints(corners_, 5, "world"));
     input->AddLines(ToKeyframeLines(segments_, R_O_Manhattan_, 5, "world"));
@@ -66,7 +66,7 @@ TEST_F(KeyframeInputTest, HasTheFramesOfAKeyframe) {
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->corners.size(), 4u);
   EXPECT_EQ(frame->segments.size(), 4u);
-  EXPECT_EQ(frame->T_B_C.translation, sensor_.cameras[0].T_B_C.translation);
+  EXPECT_EQ(frame->T_B_C[0].translation, sensor_.cameras[0].T_B_C.translation);
   EXPECT_NEAR(frame->covariance(4, 4), 4, 1e-12);
   EXPECT_NEAR(frame->covariance(3, 3), 0, 1e-12);
   for (const auto& [cause, count] : drops_) EXPECT_EQ(count, 0) << cause;
@@ -76,13 +76,13 @@ TEST_F(KeyframeInputTest, UsesEstimatedExtrinsics) {
   KeyframeInput input(sensor_);
   nav_msgs::Odometry extrinsics = Pose();
   extrinsics.pose.pose.position.x = 0.25;
-  input.AddExtrinsics(extrinsics);
+  input.AddExtrinsics(0, extrinsics);
   extrinsics.pose.pose.position.x = kNan;
-  input.AddExtrinsics(extrinsics);
+  input.AddExtrinsics(0, extrinsics);
   const auto frame = Assemble(Pose(), &input);
   ASSERT_TRUE(frame);
-  EXPECT_EQ(frame->T_B_C.translation.x(), 0.25);
-  EXPECT_NEAR(frame->T_B_C.rotation.z(), std::sqrt(0.5), 1e-12);
+  EXPECT_EQ(frame->T_B_C[0].translation.x(), 0.25);
+  EXPECT_NEAR(frame->T_B_C[0].rotation.z(), std::sqrt(0.5), 1e-12);
 }
 
 // An unknown covariance is 1e6 in the message, which would make the odometry edge useless.
@@ -153,21 +153,21 @@ TEST_F(KeyframeInputTest, UsesRefinedIntrinsics) {
   CameraParameters refined = sensor_.cameras[0].parameters;
   for (const double change_px : {1.0, 2.0}) {
     refined.fx += change_px;
-    input.AddCamera(ToCameraInfo(refined, 5, "camera"));
+    input.AddCamera(0, ToCameraInfo(refined, 5, "camera"));
   }
   const auto frame = Assemble(Pose(), &input);
-  ASSERT_TRUE(frame && frame->camera);
-  EXPECT_EQ(frame->camera->fx, sensor_.cameras[0].parameters.fx + 3);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->refined[0].fx, sensor_.cameras[0].parameters.fx + 3);
 }
 
 TEST_F(KeyframeInputTest, RejectsAnotherCamera) {
   KeyframeInput input(sensor_);
   CameraParameters refined = sensor_.cameras[0].parameters;
   refined.fx += 1;
-  input.AddCamera(ToCameraInfo(refined, 5, "camera"));
+  input.AddCamera(0, ToCameraInfo(refined, 5, "camera"));
   EXPECT_EQ(input.Drops().back().count, 0);
   refined.width /= 2;
-  input.AddCamera(ToCameraInfo(refined, 5, "camera"));
+  input.AddCamera(0, ToCameraInfo(refined, 5, "camera"));
   EXPECT_EQ(input.Drops().back().cause, "cameras_refused");
   EXPECT_EQ(input.Drops().back().count, 1);
 }

@@ -18,7 +18,7 @@ class LoopDrawingTest : public ::testing::Test {
  protected:
   LoopDrawingTest() { observations_.T_O1_C.translation = {0, 0, 1}; }
 
-  cv::Mat Draw() const { return DrawLoop(*camera_, observations_, earlier_, later_); }
+  cv::Mat Draw() const { return DrawLoop({camera_}, observations_, earlier_, later_); }
 
   // Returns whether the drawing is colored at the pixel.
   static bool IsColored(const cv::Mat& picture, int x, int y) {

@@ -94,7 +94,7 @@ TEST_F(LandmarkMatchingTest, MergesTheLandmarksOfAnIsland) {
     corner.p_O = Eigen::Vector3f(1, 2, keyframe == &first ? 3 : 4);
     keyframe->corners = {corner, CornerOf(b_)};  // the second corner has no position
   }
-  const auto landmarks = MergeLandmarks({&first, &second});
+  const auto landmarks = MergeLandmarks({&first, &second}, 0);
   ASSERT_EQ(landmarks.size(), 1u);
   EXPECT_EQ(landmarks.front().p_O, Eigen::Vector3d(1, 2, 4));
   EXPECT_EQ(landmarks.front().descriptors.size(), 2u);
@@ -108,7 +108,7 @@ TEST_F(LandmarkMatchingTest, MergesInTheOrderOfTracksWithGaps) {
     keyframe.corners.back().p_O = Eigen::Vector3f::Constant(static_cast<float>(track));
   }
   std::vector<double> places;
-  for (const DescribedLandmark& landmark : MergeLandmarks({&keyframe}, {1, 4, 8})) {
+  for (const DescribedLandmark& landmark : MergeLandmarks({&keyframe}, 0, {1, 4, 8})) {
     places.push_back(landmark.p_O.x());
   }
   EXPECT_EQ(places, (std::vector<double>{2, 7, 9}));

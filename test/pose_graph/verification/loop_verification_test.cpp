@@ -33,9 +33,10 @@ class LoopVerificationTest : public ::testing::Test {
   }
 
   LoopCandidate VerifyPair(const Keyframe& earlier, const Keyframe& later) {
-    const LoopVerification verification(options_, camera_);
+    const LoopVerification verification(options_, {camera_});
     LoopCandidate candidate;
-    observations_ = verification.Verify({&earlier, {&earlier}}, {&later, {&later}}, &candidate);
+    observations_ =
+        verification.Verify({&earlier, 0, {&earlier}}, {&later, 0, {&later}}, &candidate);
     truth_ = earlier_.T_O_W * later_.T_O_W.Inverse();
     error_ = earlier.T_O_L() * candidate.T_earlier_later * later.T_O_L().Inverse();
     return candidate;

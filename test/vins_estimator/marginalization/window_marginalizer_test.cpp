@@ -9,7 +9,7 @@
 
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_problem.h"
-#include "vins_estimator/least_squares/normal_equations.h"
+#include "vins_estimator/equations/normal_equations.h"
 #include "vins_estimator/marginalization/window_estimate.h"
 #include "vins_estimator/problem/initial_prior.h"
 

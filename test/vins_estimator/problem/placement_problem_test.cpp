@@ -7,8 +7,8 @@
 
 #include "common/geometry/so3.h"
 #include "test/vins_estimator/simulated_window.h"
-#include "vins_estimator/least_squares/normal_equations.h"
-#include "vins_estimator/optimization/levenberg_marquardt.h"
+#include "vins_estimator/equations/normal_equations.h"
+#include "vins_estimator/solver/levenberg_marquardt.h"
 
 namespace plm_vins {
 namespace {

@@ -12,8 +12,8 @@
 #include "simulator/default_sensors.h"
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_window.h"
-#include "vins_estimator/least_squares/normal_equations.h"
-#include "vins_estimator/least_squares/term_evaluation.h"
+#include "vins_estimator/equations/normal_equations.h"
+#include "vins_estimator/equations/term_evaluation.h"
 #include "vins_estimator/problem/initial_prior.h"
 
 namespace plm_vins {

@@ -11,8 +11,8 @@
 
 #include "common/config/config.h"
 #include "test/vins_estimator/simulated_problem.h"
-#include "vins_estimator/optimization/window_solver.h"
 #include "vins_estimator/problem/initial_prior.h"
+#include "vins_estimator/solver/window_solver.h"
 
 namespace plm_vins {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "test/testing/numeric_jacobian.h"
-#include "test/vins_estimator/least_squares/dense_equations.h"
+#include "test/vins_estimator/equations/dense_equations.h"
 #include "test/vins_estimator/simulated_problem.h"
 #include "vins_estimator/bridging/uncertain_state.h"
 #include "vins_estimator/factors/imu_factor.h"

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/rotation_calibration/rotation_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/geometry/so3.h"
+#include "test/vins_estimator/initialization/simulated_frames.h"
+
+namespace plm_vins {
+namespace {
+
+using ::testing::StartsWith;
+
+using testing::SimulatedFlight;
+
+SimulatedFlight Fly(uint64_t seed, simulator::Motion motion = simulator::Motion::kGentle) {
+  auto options = testing::FlightOptions(motion, seed);
+  options.trajectory.duration = 15;
+  options.point_outlier_ratio = 0.02;
+  return testing::SimulateFlight(options, /*skip=*/4);
+}
+
+std::string Check(const SimulatedFlight& flight) {
+  RotationCheck check(flight.sensor, 0, 0.5);
+  for (const FrameMeasurement& frame : flight.frames) check.Add(frame, /*in_doubt=*/true);
+  return check.finding();
+}
+
+TEST(RotationCheck, FindsNothingIfAllIsRight) {
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    EXPECT_EQ(Check(Fly(seed)), "");
+    EXPECT_EQ(Check(Fly(seed, simulator::Motion::kFast)), "");
+  }
+}
+
+TEST(RotationCheck, NamesAWrongMounting) {
+  for (const Eigen::Vector3d& turn : {Eigen::Vector3d(0, 0, M_PI), Eigen::Vector3d(0, 0, M_PI / 2),
+                                      Eigen::Vector3d(M_PI / 2, 0, 0)}) {
+    SimulatedFlight flight = Fly(1);
+    flight.sensor.cameras[0].T_B_C.rotation =
+        flight.sensor.cameras[0].T_B_C.rotation * SO3Exp(turn);
+    const std::string finding = Check(flight);
+    EXPECT_THAT(finding, StartsWith("extrinsicRotation is wrong by "));
+    const double degrees = std::stod(finding.substr(30));
+    EXPECT_NEAR(degrees, turn.norm() * 180 / M_PI, 3);
+  }
+}
+
+// Without translation, which the relative pose of two images would trade for it.
+TEST(RotationCheck, NamesAWrongFocalLength) {
+  SimulatedFlight flight = Fly(2, simulator::Motion::kPureRotation);
+  for (FrameMeasurement& frame : flight.frames) {
+    for (PointObservation& point : frame.points.points) point.xy /= 1.06;
+  }
+  EXPECT_EQ(Check(flight).rfind("the focal length is wrong by about +", 0), 0u) << Check(flight);
+}
+
+TEST(RotationCheck, NamesAGyroWithWrongScales) {
+  SimulatedFlight flight = Fly(2, simulator::Motion::kFast);
+  for (FrameMeasurement& frame : flight.frames) {
+    for (ImuSample& sample : frame.imu)
+      sample.gyro = Eigen::Vector3d(1.04, 0.97, 1).cwiseProduct(sample.gyro);
+  }
+  EXPECT_EQ(Check(flight).rfind("scale or axes of the gyro are wrong by up to ", 0), 0u)
+      << Check(flight);
+}
+
+}  // namespace
+}  // namespace plm_vins

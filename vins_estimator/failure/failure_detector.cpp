@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/failure/failure_detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/format.h"
+#include "common/measurements.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kMaxRejectedShare = 0.25;  // a few percent in normal flight
+constexpr int kMinRejected = 5;             // at first; outlier rejection leaves fewer later
+constexpr double kMaxContradiction = 0.5;   // [s]
+// Limits the contribution of one image, because a gap between images is no contradiction.
+const int64_t kMaxInterval_ns = ToNanoseconds(kMaxContradiction / 2);
+
+bool IsFinite(const FrameState& state) {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  return std::all_of(state.pose.begin(), state.pose.end(), finite) &&
+         std::all_of(state.motion.begin(), state.motion.end(), finite);
+}
+
+std::optional<std::string> Exceeds(const char* what, double value, double limit, const char* unit) {
+  if (value <= limit) return std::nullopt;
+  return Format("%s is %.2f %s, more than %.2f", what, value, unit, limit);
+}
+
+}  // namespace
+
+std::optional<std::string> DetectFailure(const FailureLimits& limits, const FrameState& predicted,
+                                         const FrameState& optimized) {
+  if (!IsFinite(optimized)) return "the optimization returned non-finite values";
+  const double turn = predicted.rotation().angularDistance(optimized.rotation());
+  const std::optional<std::string> causes[] = {
+      Exceeds("accelerometer bias", optimized.accel_bias().norm(), limits.accel_bias, "m/s^2"),
+      Exceeds("gyro bias", optimized.gyro_bias().norm(), limits.gyro_bias, "rad/s"),
+      Exceeds("velocity", optimized.velocity().norm(), limits.velocity, "m/s"),
+      Exceeds("correction of velocity", (optimized.velocity() - predicted.velocity()).norm(),
+              limits.velocity_jump, "m/s"),
+      Exceeds("correction of position", (optimized.position() - predicted.position()).norm(),
+              limits.position_jump, "m"),
+      Exceeds("correction of rotation", turn, limits.rotation_jump, "rad"),
+  };
+  for (const auto& cause : causes) {
+    if (cause) return cause;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> DetectRunaway(const FailureLimits& limits, double time_offset_change) {
+  if (!std::isfinite(time_offset_change)) return "td is not finite";
+  return Exceeds("change of td", std::abs(time_offset_change), limits.time_offset, "s");
+}
+
+std::optional<std::string> ContradictionMonitor::Add(int64_t t_ns, int landmarks, int rejected) {
+  const int64_t interval_ns = std::min(t_ns - newest_ns_, kMaxInterval_ns);
+  newest_ns_ = t_ns;
+  const bool fits = rejected == 0 || rejected < kMaxRejectedShare * landmarks;
+  const bool by_chance = !contradicts_ && rejected < kMinRejected;
+  if (fits && landmarks >= kFewFeatures) contradicts_ = false;
+  if (fits || by_chance) return std::nullopt;
+  contradiction_ns_ = contradicts_ ? contradiction_ns_ + interval_ns : 0;
+  contradicts_ = true;
+  const double seconds = ToSeconds(contradiction_ns_);
+  if (seconds < kMaxContradiction) return std::nullopt;
+  return Format("the camera contradicts the state: %d of %d landmarks rejected, for %.1f s",
+                rejected, landmarks, seconds);
+}
+
+}  // namespace plm_vins

@@ -89,11 +89,6 @@ void CheckPairs(const SensorConfig& sensor, const Report& report) {
   if (const Problem problem = CheckStereoPairs(sensor)) report("stereo_pairs", *problem);
 }
 
-void CheckDepth(const SensorConfig& sensor, const Report& report) {
-  if (!sensor.depth || sensor.cameras.size() == 1) return;
-  report("depth_topic", "works with one camera only; remove it, or set num_of_cam: 1");
-}
-
 void CheckShutter(const SensorConfig& sensor, const Report& report) {
   if (sensor.rolling_shutter && !(sensor.rolling_shutter_tr > 0)) {
     report("rolling_shutter_tr", "is 0; give the read-out time [s], or set rolling_shutter: 0");
@@ -196,7 +191,6 @@ void CheckTogether(const ConfigEntries& entries, const Config& config, const Rep
   CheckExtrinsics(entries, config, report);
   CheckTransforms(entries, config.sensor.cameras, report);
   CheckPairs(config.sensor, report);
-  CheckDepth(config.sensor, report);
   CheckShutter(config.sensor, report);
   CheckNoise(entries, report);
   CheckImages(config, report);

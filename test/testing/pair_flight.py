@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulates flights with a pair of cameras, with a pair and a camera that looks back, or with depth
-images."""
+"""Simulates flights with a pair of cameras ("stereo"), with these, a camera that looks back and
+depth images ("rig"), or with one camera and depth images ("depth")."""
 
 import pathlib
 import re
@@ -36,16 +36,18 @@ def write_config(folder, sensor):
     config = pathlib.Path(folder) / f"{sensor}.yaml"
     name = "euroc.yaml" if sensor == "depth" else "euroc_stereo.yaml"
     text = (ROOT / "config" / name).read_text(encoding="utf-8")
-    if sensor == "depth":
-        text += '\ndepth_topic: "/depth/image_raw"\n'
     if sensor == "rig":
         text = add_camera_that_looks_back(text)
+    if sensor != "stereo":
+        text += '\ndepth_topic: "/depth/image_raw"\n'
     config.write_text(text, encoding="utf-8")
     return config
 
 
 def simulate(program, config, sensor, seconds, *outputs):
     """Runs the program `simulate`; OUTPUTS are its options for them."""
-    sensors = ["--config", config, "--depth"] if sensor == "depth" else ["--rig", config]
+    sensors = ["--config" if sensor == "depth" else "--rig", config]
+    if sensor != "stereo":
+        sensors.append("--depth")
     command = [program, *sensors, "--exposure", 0, "--duration", seconds, *outputs]
     subprocess.run([str(word) for word in command], stderr=subprocess.DEVNULL, check=True)

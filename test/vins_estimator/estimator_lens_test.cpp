@@ -51,7 +51,7 @@ std::string WarningAfter(const simulator::FeatureSimulationOptions& options,
   flight.sensor.estimate_intrinsics = refine;
   Estimator estimator(testing::ConfigFor(flight));
   testing::Estimate(flight, &estimator);
-  return estimator.lens().warning();
+  return estimator.lenses()[0].warning();
 }
 
 TEST(EstimatorLensTest, WrongModelIsReported) {
@@ -83,7 +83,7 @@ TEST(EstimatorLensTest, UnconfiguredRollingShutterIsNoLensError) {
   flight.sensor.rolling_shutter = false;
   Estimator estimator(testing::ConfigFor(flight));
   testing::Estimate(flight, &estimator);
-  EXPECT_EQ(estimator.lens().warning(), "");
+  EXPECT_EQ(estimator.lenses()[0].warning(), "");
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "vins_estimator/factors/camera_chain.h"
 #include "vins_estimator/factors/factor.h"
-#include "vins_estimator/geometry/line_segment_view.h"
+#include "vins_estimator/geometry/segment_end_points.h"
 
 namespace plm_vins {
 
@@ -15,12 +15,12 @@ namespace plm_vins {
 class LineFactor final : public Factor {
  public:
   // `weights`: one over the standard deviations of start and end across the line, normalized.
-  LineFactor(const ChainKind& kind, const LineSegmentView& segment, const Eigen::Vector2d& weights)
+  LineFactor(const ChainKind& kind, const SegmentEndPoints& segment, const Eigen::Vector2d& weights)
       : Factor(2, kind.CountBlocks() + 1), kind_(kind), segment_(segment), weights_(weights) {}
 
-  const LineSegmentView& segment() const { return segment_; }
+  const SegmentEndPoints& segment() const { return segment_; }
   const Eigen::Vector2d& weights() const { return weights_; }
-  void set_segment(const LineSegmentView& segment) { segment_ = segment; }
+  void set_segment(const SegmentEndPoints& segment) { segment_ = segment; }
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
@@ -33,7 +33,7 @@ class LineFactor final : public Factor {
 
  private:
   ChainKind kind_;
-  LineSegmentView segment_;
+  SegmentEndPoints segment_;
   Eigen::Vector2d weights_;
 };
 

@@ -21,7 +21,7 @@ using LineJacobian = Eigen::Matrix<double, 2, kLineTangentSize>;
 struct LineCamera {
   Eigen::Matrix3d R;
   Eigen::Matrix3d tR;  // [t]x R
-  LineSegmentView segment;
+  SegmentEndPoints segment;
 };
 
 std::vector<LineCamera> CamerasOf(const std::vector<PosedLineObservation>& observations) {

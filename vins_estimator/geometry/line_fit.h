@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "common/geometry/rigid3.h"
-#include "vins_estimator/geometry/line_segment_view.h"
 #include "vins_estimator/geometry/plucker.h"
+#include "vins_estimator/geometry/segment_end_points.h"
 
 namespace plm_vins {
 
 // Observation of a line segment by a camera with known pose.
 struct PosedLineObservation {
   Rigid3d T_W_C;
-  LineSegmentView segment;
+  SegmentEndPoints segment;
 };
 
 // A line in the frame of the first observing camera, with its normal equations.

@@ -25,7 +25,7 @@ struct ViewingPlane {
 
 ViewingPlane PlaneOf(const PosedLineObservation& observation, const Rigid3d& T_C0_W) {
   const Rigid3d T_C0_C = T_C0_W * observation.T_W_C;
-  const LineSegmentView& segment = observation.segment;
+  const SegmentEndPoints& segment = observation.segment;
   ViewingPlane plane;
   plane.normal =
       (T_C0_C.rotation * segment.start.homogeneous().cross(segment.end.homogeneous())).normalized();
@@ -74,14 +74,14 @@ double DepthDeviation(const Matrix4d& covariance, const OrthonormalLine& line,
 
 // Returns the normal of the plane through the camera and an end point, perpendicular to the
 // segment.
-Eigen::Vector3d PlaneAcross(const Eigen::Vector2d& end_point, const LineSegmentView& segment) {
+Eigen::Vector3d PlaneAcross(const Eigen::Vector2d& end_point, const SegmentEndPoints& segment) {
   const Eigen::Vector2d along = segment.end - segment.start;
   const Eigen::Vector3d across(-along.y(), along.x(), 0);
   return end_point.homogeneous().cross(across);
 }
 
 bool IsDepthKnown(const LineTriangulationOptions& options, const LineFit& fit,
-                  const LineSegmentView& segment) {
+                  const SegmentEndPoints& segment) {
   const LineEnds ends = EndsOf(ToPlucker(fit.line.data()), segment);
   const Matrix4d covariance = fit.information.ldlt().solve(Matrix4d::Identity());
   const double start =
@@ -103,7 +103,7 @@ bool IsInFrontOfAll(const std::vector<PosedLineObservation>& observations, const
 
 }  // namespace
 
-LineEnds EndsOf(const PluckerLine& line_C, const LineSegmentView& segment) {
+LineEnds EndsOf(const PluckerLine& line_C, const SegmentEndPoints& segment) {
   return {PointInPlane(line_C, PlaneAcross(segment.start, segment)),
           PointInPlane(line_C, PlaneAcross(segment.end, segment))};
 }

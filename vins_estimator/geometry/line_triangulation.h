@@ -49,7 +49,7 @@ TriangulatedLine TriangulateLine(const LineTriangulationOptions& options,
 struct LineEnds {
   Eigen::Vector3d start, end;
 };
-LineEnds EndsOf(const PluckerLine& line_C, const LineSegmentView& segment);
+LineEnds EndsOf(const PluckerLine& line_C, const SegmentEndPoints& segment);
 
 // Returns whether both ends are in front of the camera.
 bool IsInFront(const LineEnds& ends_C);

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "vins_estimator/geometry/line_segment_view.h"
 #include "vins_estimator/geometry/plucker.h"
+#include "vins_estimator/geometry/segment_end_points.h"
 #include "vins_estimator/map/image_key.h"
 #include "vins_estimator/state/line_axis.h"
 
@@ -18,7 +18,7 @@ namespace plm_vins {
 // host, in whose camera frame the coordinates are.
 struct LineLandmark {
   struct Observation : ImageKey {
-    LineSegmentView segment;
+    SegmentEndPoints segment;
     // Standard deviations of start and end across the line, normalized; zero for the noise of
     // lines.
     Eigen::Vector2d deviation = Eigen::Vector2d::Zero();

@@ -21,7 +21,7 @@ double DistanceInImages(const SlidingWindow& window, const LineLandmark& a, cons
 
 // Returns whether two segments of one image overlap along their direction but are farther apart
 // than their noise, so that they cannot be one line.
-bool AreSideBySide(const LineSegmentView& a, const LineSegmentView& b, double noise) {
+bool AreSideBySide(const SegmentEndPoints& a, const SegmentEndPoints& b, double noise) {
   constexpr double kNoiseFactor = 3.0;
   constexpr double kLeastOverlap = 0.2;  // fraction of the shorter segment
   const Vector2d along = (a.end - a.start).normalized();

@@ -15,10 +15,10 @@ Eigen::Vector2d ExpectedRay(const PointLandmark& landmark,
   return p_C.z() > kMinProjectedDepth ? Eigen::Vector2d(p_C.hnormalized()) : observation.bearing.xy;
 }
 
-LineSegmentView ExpectedEnds(const LineLandmark& landmark,
-                             const LineLandmark::Observation& observation,
-                             const SlidingWindow& window) {
-  const LineSegmentView& observed = observation.segment;
+SegmentEndPoints ExpectedEnds(const LineLandmark& landmark,
+                              const LineLandmark::Observation& observation,
+                              const SlidingWindow& window) {
+  const SegmentEndPoints& observed = observation.segment;
   const Eigen::Vector3d moment =
       (window.T_W_C(observation).Inverse() * LineInWorld(landmark, window)).moment;
   Eigen::Vector2d distances;

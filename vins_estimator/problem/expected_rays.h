@@ -20,8 +20,8 @@ Eigen::Vector2d ExpectedRay(const PointLandmark& landmark,
 
 // Returns the points of the projected line nearest to the observed end points; these themselves if
 // the line has no projection.
-LineSegmentView ExpectedEnds(const LineLandmark& landmark,
-                             const LineLandmark::Observation& observation,
-                             const SlidingWindow& window);
+SegmentEndPoints ExpectedEnds(const LineLandmark& landmark,
+                              const LineLandmark::Observation& observation,
+                              const SlidingWindow& window);
 
 }  // namespace plm_vins

@@ -129,7 +129,7 @@ void ObservationTerms::AddLine(const ProblemLine& line,
     return;
   }
   variables.Add(variables_->Intrinsics(camera));
-  const LineSegmentView expected = ExpectedEnds(*line.landmark, observation, *window_);
+  const SegmentEndPoints expected = ExpectedEnds(*line.landmark, observation, *window_);
   const RayShift start(*cameras_[camera], expected.start), end(*cameras_[camera], expected.end);
   AddTerm(line.eliminated, LineIntrinsicsFactor(factor, start, end), &line_loss_, variables);
 }

@@ -51,7 +51,7 @@ class IntrinsicsFactorTest : public ::testing::Test {
   const std::unique_ptr<const CameraModel> camera_ =
       CameraModel::Create(simulator::DefaultSensors().cameras[0].parameters);
   const TimedBearing bearing_{{0.1, -0.2}, {1, 2}, 0.01};
-  const LineSegmentView view_{{0.1, -0.2}, {-0.2, 0.15}};
+  const SegmentEndPoints view_{{0.1, -0.2}, {-0.2, 0.15}};
   const Block point_ = Vector3d(0.12, -0.23, 0.5);
   Block intrinsics_;
 };
@@ -72,7 +72,7 @@ TEST_F(IntrinsicsFactorTest, KeepsPixelsWithOtherIntrinsics) {
   const PointFactor moved_point(kHost, moved_bearing, kWeight);
   EXPECT_MATRIX_NEAR(testing::Residual(Point(kHost), {ScalarBlock(0.02), point_, near}),
                      testing::Residual(moved_point, {ScalarBlock(0.02), point_}), 1e-5);
-  const LineSegmentView moved_view{Recalibrated(view_.start, near), Recalibrated(view_.end, near)};
+  const SegmentEndPoints moved_view{Recalibrated(view_.start, near), Recalibrated(view_.end, near)};
   EXPECT_MATRIX_NEAR(testing::Residual(Line(kHost), {LineBlock(), near}),
                      testing::Residual(LineFactor(kHost, moved_view, {kWeight, 3}), {LineBlock()}),
                      1e-5);

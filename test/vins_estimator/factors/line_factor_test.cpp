@@ -14,7 +14,7 @@ using testing::Block;
 using testing::FactorScene;
 
 // The target's observation of the line's endpoints.
-LineSegmentView View(const FactorScene& scene) {
+SegmentEndPoints View(const FactorScene& scene) {
   return {scene.SeenInTarget(scene.p_Ch), scene.SeenInTarget(scene.q_Ch)};
 }
 
@@ -29,11 +29,11 @@ bool Evaluates(const Factor& cost, const std::vector<Block>& blocks) {
 
 TEST(LineFactor, IsTheWeightedDistanceAcrossTheLineOnly) {
   testing::ForEachScene([](const FactorScene& scene) {
-    const LineSegmentView truth = View(scene);
+    const SegmentEndPoints truth = View(scene);
     const Vector2d along = truth.end - truth.start;
     const Vector2d across = Vector2d(-along.y(), along.x()).normalized();
-    const LineSegmentView view{truth.start + 0.3 * along + 0.002 * across,
-                               truth.end - 0.1 * along - 0.001 * across};
+    const SegmentEndPoints view{truth.start + 0.3 * along + 0.002 * across,
+                                truth.end - 0.1 * along - 0.001 * across};
     const LineFactor factor(scene.kind, view, {100, 300});
     ASSERT_EQ(static_cast<size_t>(factor.num_blocks()), Blocks(scene).size());
     const Eigen::VectorXd residual = testing::Residual(factor, Blocks(scene));
@@ -55,7 +55,7 @@ TEST(LineFactor, IgnoresMotionAlongTheLine) {
 
 TEST(LineFactor, JacobiansAreExactFarFromTheTruth) {
   testing::ForEachScene([](const FactorScene& scene) {
-    LineSegmentView view = View(scene);
+    SegmentEndPoints view = View(scene);
     view.start += Vector2d(0.1, -0.05);
     view.end += Vector2d(-0.05, 0.2);
     testing::ExpectTangentJacobians(LineFactor(scene.kind, view, {2, 3}), Blocks(scene), 1e-5);

@@ -233,7 +233,7 @@ TEST(TriangulateLine, StatesTheDeviationOfItsDepth) {
 
 TEST(TriangulateLine, RejectsLinesBehindACamera) {
   // Vertical lines whose planes intersect five meters behind both cameras.
-  const auto upright = [](double x) { return LineSegmentView{{x, -0.3}, {x, 0.3}}; };
+  const auto upright = [](double x) { return SegmentEndPoints{{x, -0.3}, {x, 0.3}}; };
   EXPECT_EQ(ResultOf({{Rigid3d(), upright(-0.1)}, {{SO3Exp({0, 0, 0}), kAlong}, upright(0.1)}}),
             Result::kBehind);
   // A third camera looks the other way; its plane is correct nevertheless.
@@ -256,8 +256,8 @@ TEST(TriangulateLine, RejectsContradictingObservations) {
 TEST(TriangulateLine, SurvivesSegmentsWithoutLengthOrNumbers) {
   const double nan = std::nan("");
   const auto observations = SeeOnTheWay(kAcross, kEndNoise, 1);
-  for (const LineSegmentView& bad :
-       {LineSegmentView{{0.1, 0.2}, {0.1, 0.2}}, LineSegmentView{{nan, 0}, {1, 0}}}) {
+  for (const SegmentEndPoints& bad :
+       {SegmentEndPoints{{0.1, 0.2}, {0.1, 0.2}}, SegmentEndPoints{{nan, 0}, {1, 0}}}) {
     for (const size_t place : {size_t{0}, size_t{4}}) {
       auto with_bad = observations;
       with_bad[place].segment = bad;

@@ -66,13 +66,13 @@ class LineMapTest : public ::testing::Test {
     LineFrame lines;
     lines.t_ns = Stamp(frame);
     for (size_t id = 0; id < segments_W.size(); ++id) {
-      const LineSegmentView view = See(segments_W[id], frame);
+      const SegmentEndPoints view = See(segments_W[id], frame);
       lines.lines.push_back({static_cast<int64_t>(id), view.start, view.end});
     }
     return lines;
   }
 
-  LineSegmentView See(const Segment& segment_W, int frame) const {
+  SegmentEndPoints See(const Segment& segment_W, int frame) const {
     return {(T_C_W(frame) * segment_W.start).hnormalized(),
             (T_C_W(frame) * segment_W.end).hnormalized()};
   }

@@ -66,7 +66,7 @@ TEST(ExpectedEnds, AreNearestToTheObservedOnes) {
   LineLandmark landmark;
   landmark.observations = {{{1, 0}, {}}, {{2, 0}, {{-0.1, 0.3}, {0.2, 0.22}}}};
   landmark.coordinates = ToOrthonormal(LineThrough({-1, 1, 4}, {1, 1, 4}));  // at y = 0.25
-  const LineSegmentView ends = ExpectedEnds(landmark, landmark.observations[1], TwoFrames());
+  const SegmentEndPoints ends = ExpectedEnds(landmark, landmark.observations[1], TwoFrames());
   EXPECT_MATRIX_NEAR(ends.start, Vector2d(-0.1, 0.25), 1e-12);
   EXPECT_MATRIX_NEAR(ends.end, Vector2d(0.2, 0.25), 1e-12);
 }
@@ -76,7 +76,7 @@ TEST(ExpectedEnds, AreTheObservedOnesWithoutAnImage) {
   landmark.observations = {{{1, 0}, {}}, {{2, 0}, {{-0.1, 0.3}, {0.2, 0.22}}}};
   landmark.coordinates =
       ToOrthonormal(LineThrough({0.5, 1, 0}, {0.5, 2, 0}));  // through the camera of frame 2
-  const LineSegmentView ends = ExpectedEnds(landmark, landmark.observations[1], TwoFrames());
+  const SegmentEndPoints ends = ExpectedEnds(landmark, landmark.observations[1], TwoFrames());
   EXPECT_EQ(ends.start, Vector2d(-0.1, 0.3));
   EXPECT_EQ(ends.end, Vector2d(0.2, 0.22));
 }

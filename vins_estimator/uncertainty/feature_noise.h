@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "vins_estimator/map/local_map.h"
-#include "vins_estimator/uncertainty/view_spread.h"
+#include "vins_estimator/uncertainty/residual_spread.h"
 
 namespace plm_vins {
 
@@ -16,15 +16,15 @@ namespace plm_vins {
 // - difference / variance, n observations are worth n (1 - rho) / (1 + rho) independent ones
 // (first-order autoregression, [Bayley1946]). Outlier landmarks are clipped to three times the
 // median standard deviation.
-std::optional<double> EffectiveNoise(const std::vector<ViewSpread>& spreads);
+std::optional<double> EffectiveNoise(const std::vector<ResidualSpread>& spreads);
 
 // Estimates the noise of corners and line end points from the residuals of the optimized window,
 // because texture, blur, compression and calibration make it differ between cameras. Adapts slowly
 // and within bounds, so that no single window determines its own weight.
-class ViewNoise {
+class FeatureNoise {
  public:
   // Takes the configured noise, normalized.
-  ViewNoise(double point_noise, double line_noise)
+  FeatureNoise(double point_noise, double line_noise)
       : first_point_(point_noise),
         first_line_(line_noise),
         point_(first_point_),

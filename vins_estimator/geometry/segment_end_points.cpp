@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/geometry/line_segment_view.h"
+#include "vins_estimator/geometry/segment_end_points.h"
 
 namespace plm_vins {
 namespace {
@@ -8,13 +8,13 @@ constexpr double kMinMoment = 1e-9;
 
 }  // namespace
 
-bool EndPointDistances(const LineSegmentView& view, const Eigen::Vector3d& moment_C,
+bool EndPointDistances(const SegmentEndPoints& segment, const Eigen::Vector3d& moment_C,
                        Eigen::Vector2d* distances,
                        Eigen::Matrix<double, 2, 3>* d_distances_d_moment) {
   const double norm = moment_C.head<2>().norm();
   if (!(norm > kMinMoment)) return false;
   Eigen::Matrix<double, 2, 3> ends;
-  ends << view.start.transpose(), 1, view.end.transpose(), 1;
+  ends << segment.start.transpose(), 1, segment.end.transpose(), 1;
   *distances = ends * moment_C / norm;
   if (d_distances_d_moment == nullptr) return true;
   *d_distances_d_moment = ends / norm;

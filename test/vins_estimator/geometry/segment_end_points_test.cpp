@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/geometry/line_segment_view.h"
+#include "vins_estimator/geometry/segment_end_points.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 TEST(EndPointDistances, AreThoseInTheImage) {
   const Vector3d moment = Vector3d(3, 4, -10);  // of the image line 3 x + 4 y = 10
-  const LineSegmentView view{{0, 0}, {2, 4}};
+  const SegmentEndPoints view{{0, 0}, {2, 4}};
   Vector2d distances;
   ASSERT_TRUE(EndPointDistances(view, moment, &distances, nullptr));
   EXPECT_MATRIX_NEAR(distances, Vector2d(-2, 2.4), 1e-12);
@@ -27,7 +27,7 @@ TEST(EndPointDistances, AreThoseInTheImage) {
 TEST(EndPointDistances, DerivativeIsExact) {
   simulator::Random random(1);
   for (int trial = 0; trial < 20; ++trial) {
-    const LineSegmentView view{random.NormalVector3().head<2>(), random.NormalVector3().head<2>()};
+    const SegmentEndPoints view{random.NormalVector3().head<2>(), random.NormalVector3().head<2>()};
     const Vector3d moment = random.NormalVector3();
     const auto distances = [&view](const Vector3d& m) {
       Vector2d result;
@@ -45,7 +45,7 @@ TEST(EndPointDistances, DerivativeIsExact) {
 
 TEST(EndPointDistances, NeedALineThatHasAnImage) {
   Vector2d distances;
-  const LineSegmentView view{{0, 0}, {1, 0}};
+  const SegmentEndPoints view{{0, 0}, {1, 0}};
   EXPECT_FALSE(EndPointDistances(view, Vector3d::Zero(), &distances, nullptr));
   EXPECT_FALSE(EndPointDistances(view, Vector3d::UnitZ(), &distances, nullptr));
   EXPECT_FALSE(EndPointDistances(view, Vector3d::Constant(std::nan("")), &distances, nullptr));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/uncertainty/view_noise.h"
+#include "vins_estimator/uncertainty/feature_noise.h"
 
 #include <gtest/gtest.h>
 
@@ -19,12 +19,12 @@ constexpr int kLandmarks = 4000;
 
 // Residuals of many landmarks with this correlation between consecutive errors, after a fit of two
 // parameters, their mean. One observation of each landmark is off by `mistake`.
-std::vector<ViewSpread> Simulate(double correlation, int landmarks = kLandmarks,
-                                 double mistake = 0) {
+std::vector<ResidualSpread> Simulate(double correlation, int landmarks = kLandmarks,
+                                     double mistake = 0) {
   std::mt19937 generator(1);
   std::normal_distribution<double> normal(0, kSigma);
   const auto draw = [&] { return Eigen::Vector2d(normal(generator), normal(generator)); };
-  std::vector<ViewSpread> spreads;
+  std::vector<ResidualSpread> spreads;
   for (int i = 0; i < landmarks; ++i) {
     std::vector<Eigen::Vector2d> residuals = {draw()};
     while (residuals.size() < kViews) {
@@ -59,7 +59,7 @@ TEST(EffectiveNoise, GrowsWithCorrelatedErrors) {
 }
 
 TEST(EffectiveNoise, IsRobustAgainstAFewLandmarks) {
-  std::vector<ViewSpread> spreads = Simulate(0);
+  std::vector<ResidualSpread> spreads = Simulate(0);
   const double clean = EffectiveNoise(spreads).value();
   for (size_t i = 0; i < spreads.size() / 50; ++i) spreads[i] = {1.0, 1.0};
   EXPECT_LT(EffectiveNoise(spreads).value(), 1.15 * clean);
@@ -75,12 +75,12 @@ TEST(EffectiveNoise, IsRobustAgainstAnOutlierInEveryLandmark) {
 TEST(EffectiveNoise, IsUnknownForTooFewOrExactLandmarks) {
   EXPECT_FALSE(EffectiveNoise(Simulate(0, 5)));
   EXPECT_FALSE(EffectiveNoise({}));
-  EXPECT_FALSE(EffectiveNoise(std::vector<ViewSpread>(20)));
+  EXPECT_FALSE(EffectiveNoise(std::vector<ResidualSpread>(20)));
 }
 
 // Point noise learned from two windows, in motion or at standstill.
 double LearnPointNoise(double first, bool moved) {
-  ViewNoise noise(first, first);
+  FeatureNoise noise(first, first);
   for (const size_t frames : {7, 9}) {
     WindowEstimate estimate(
         testing::SimulateWindow(frames, /*seed=*/1, /*stride=*/5, /*max_points=*/60));
@@ -95,7 +95,7 @@ double LearnPointNoise(double first, bool moved) {
   return noise.point();
 }
 
-TEST(ViewNoise, IsLearnedInMotionOnly) {
+TEST(FeatureNoise, IsLearnedInMotionOnly) {
   EXPECT_GT(LearnPointNoise(1e-4, true), 1e-4);
   EXPECT_EQ(LearnPointNoise(1e-4, false), 1e-4);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/uncertainty/view_noise.h"
+#include "vins_estimator/uncertainty/feature_noise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,18 +19,19 @@ constexpr double kMinMotion = 0.3;     // between the first and the last frame o
 constexpr double kLeast = 0.5, kMost = 4.0;  // bounds, times the configured noise
 
 template <typename Landmarks>
-std::vector<ViewSpread> CollectSpreads(const Landmarks& landmarks, const SlidingWindow& window) {
-  std::vector<ViewSpread> spreads;
+std::vector<ResidualSpread> CollectSpreads(const Landmarks& landmarks,
+                                           const SlidingWindow& window) {
+  std::vector<ResidualSpread> spreads;
   for (const auto& [id, landmark] : landmarks) {
     if (const auto spread = SpreadOf(landmark, window)) spreads.push_back(*spread);
   }
   return spreads;
 }
 
-double MedianVariance(const std::vector<ViewSpread>& spreads) {
+double MedianVariance(const std::vector<ResidualSpread>& spreads) {
   std::vector<double> variances;
   variances.reserve(spreads.size());
-  for (const ViewSpread& spread : spreads) variances.push_back(spread.variance);
+  for (const ResidualSpread& spread : spreads) variances.push_back(spread.variance);
   return Median(std::move(variances));
 }
 
@@ -47,11 +48,11 @@ double MotionOver(const SlidingWindow& window) {
 
 }  // namespace
 
-std::optional<double> EffectiveNoise(const std::vector<ViewSpread>& spreads) {
+std::optional<double> EffectiveNoise(const std::vector<ResidualSpread>& spreads) {
   if (spreads.size() < kMinLandmarks) return std::nullopt;
   const double limit = kGreatestRatio * MedianVariance(spreads);
   double variance = 0, difference = 0;
-  for (const ViewSpread& spread : spreads) {
+  for (const ResidualSpread& spread : spreads) {
     const double share = spread.variance > limit ? limit / spread.variance : 1.0;
     variance += share * spread.variance;
     difference += share * spread.difference;
@@ -62,7 +63,7 @@ std::optional<double> EffectiveNoise(const std::vector<ViewSpread>& spreads) {
   return std::sqrt(variance * (1 + correlation) / (1 - correlation));
 }
 
-void ViewNoise::Update(const LocalMap& map) {
+void FeatureNoise::Update(const LocalMap& map) {
   const SlidingWindow& window = map.window;
   const int64_t newest_ns = window.newest().state.t_ns;
   const double dt = newest_ns_ ? ToSeconds(newest_ns - *newest_ns_) : 0;

@@ -13,19 +13,19 @@ namespace plm_vins {
 
 // Residual statistics of one landmark after optimization, corrected for the degrees of freedom of
 // its own parameters.
-struct ViewSpread {
+struct ResidualSpread {
   double variance = 0;    // variance of one residual coordinate
   double difference = 0;  // half the variance of the step between consecutive residuals
 };
 
 // Computes the statistics of at least two residuals, by time, of a landmark with `parameters`
 // degrees of freedom. Outlier residuals are clipped to three times the median length.
-ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters);
+ResidualSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters);
 
 // Returns the statistics of a triangulated landmark in the window, normalized: of a point in x and
 // y, of a line at the start and end of the segment, across the line. Returns nullopt for fewer than
 // six observations, from which the correlation cannot be estimated.
-std::optional<ViewSpread> SpreadOf(const PointLandmark& point, const SlidingWindow& window);
-std::optional<ViewSpread> SpreadOf(const LineLandmark& line, const SlidingWindow& window);
+std::optional<ResidualSpread> SpreadOf(const PointLandmark& point, const SlidingWindow& window);
+std::optional<ResidualSpread> SpreadOf(const LineLandmark& line, const SlidingWindow& window);
 
 }  // namespace plm_vins

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/uncertainty/view_spread.h"
+#include "vins_estimator/uncertainty/residual_spread.h"
 
 #include <utility>
 
@@ -54,8 +54,8 @@ std::vector<Eigen::Vector2d> ResidualsOf(const LineLandmark& line, const Sliding
 }
 
 template <typename Landmark>
-std::optional<ViewSpread> SpreadOfViews(const Landmark& landmark, const SlidingWindow& window,
-                                        int parameters) {
+std::optional<ResidualSpread> SpreadOfViews(const Landmark& landmark, const SlidingWindow& window,
+                                            int parameters) {
   if (!landmark.triangulated || landmark.observations.size() < kMinViews) return std::nullopt;
   std::vector<Eigen::Vector2d> residuals = ResidualsOf(landmark, window);
   if (residuals.size() < kMinViews) return std::nullopt;
@@ -64,10 +64,10 @@ std::optional<ViewSpread> SpreadOfViews(const Landmark& landmark, const SlidingW
 
 }  // namespace
 
-ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters) {
+ResidualSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters) {
   ShortenOutliers(&residuals);
   const double count = static_cast<double>(residuals.size());
-  ViewSpread spread;
+  ResidualSpread spread;
   for (size_t i = 0; i < residuals.size(); ++i) {
     spread.variance += residuals[i].squaredNorm() / (2 * count - parameters);
     if (i == 0) continue;
@@ -76,11 +76,11 @@ ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters) {
   return spread;
 }
 
-std::optional<ViewSpread> SpreadOf(const PointLandmark& point, const SlidingWindow& window) {
+std::optional<ResidualSpread> SpreadOf(const PointLandmark& point, const SlidingWindow& window) {
   return SpreadOfViews(point, window, kPointParameters);
 }
 
-std::optional<ViewSpread> SpreadOf(const LineLandmark& line, const SlidingWindow& window) {
+std::optional<ResidualSpread> SpreadOf(const LineLandmark& line, const SlidingWindow& window) {
   return SpreadOfViews(line, window, kLineParameters);
 }
 

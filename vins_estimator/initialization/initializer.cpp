@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kStandstillDuration = 0.75;  // [s]
 constexpr double kQuietDuration = 0.45;       // if the IMU varies by its noise alone [s]
+constexpr double kMaxCommonMotion_px = 0.15;  // in that time
 constexpr double kMinMotionDuration = 0.745;  // 15 intervals of 20 Hz [s]
 // If the IMU shows its noise alone, a scene that moves would fit as well for a moment [s].
 constexpr double kMinUnfeltDuration = 1.5;
@@ -146,7 +147,8 @@ std::optional<InitializationResult> Initializer::Add(const FrameMeasurement& mea
   auto standstill = standstill_.Add(added);
   const auto quiet = quiet_standstill_.Add(added);
   if (skipped) return std::nullopt;
-  if (!standstill) standstill = quiet;
+  // A slow take-off looks like standstill for half a second, but its corners move together.
+  if (!standstill && quiet && quiet->common_px <= kMaxCommonMotion_px) standstill = quiet;
   if (calibrator_) CalibrateRotation();
   if (calibrator_) return std::nullopt;
   return standstill ? TryStandstill(standstill->since_ns) : TryMotion();

@@ -28,7 +28,7 @@ namespace {
 
 // New corners are detected once this share of max_cnt is missing: a detection takes as long as
 // tracking many corners.
-constexpr double kRefillShare = 0.1;
+constexpr double kRefillShare = 0.2;
 
 Eigen::Vector2d ToEigen(const cv::Point2f& point) { return {point.x, point.y}; }
 cv::Point2f ToOpenCv(const Eigen::Vector2d& point) {

@@ -29,7 +29,7 @@ constexpr int kSearchAfterFlow_px = 2;
 constexpr int kSearchAfterDetection_px = 4;
 constexpr double kMinCorrelation = 0.6;  // correlation of the profiles across a line
 constexpr double kRefillBelow = 0.9;     // share of max_lines below which lines are detected
-constexpr int kRefillInterval = 3;       // least number of images between detections
+constexpr int kRefillInterval = 5;       // least number of images between detections
 
 // Predicts the segment for a pure rotation; unchanged if an endpoint would be behind the camera.
 LineSegment Turn(const LineSegment& segment, const std::optional<Eigen::Quaterniond>& R_now_then) {

@@ -29,6 +29,7 @@ struct Arguments {
   std::string asl;
   std::string config;
   std::string rig;
+  bool stereo = false;
   bool depth = false;
   FlightOptions flight;
 };
@@ -71,6 +72,7 @@ void DeclareFiles(Arguments* arguments, CommandLine* line) {
   line->Add("config", TakePath(&arguments->config),
             "sensors: topics, camera 0, shutter, extrinsics, IMU noise, td (default: EuRoC's)");
   line->Add("rig", TakePath(&arguments->rig), "sensors likewise, but with all cameras of the file");
+  line->AddFlag("stereo", &arguments->stereo, "all cameras of --config, as --rig");
   line->AddFlag("depth", &arguments->depth, "depth images as the configuration has them, too");
 }
 
@@ -164,7 +166,7 @@ SensorConfig ChooseSensors(const Arguments& arguments) {
   if (arguments.depth && !sensors.depth) {
     throw std::runtime_error("--depth: name a configuration with depth_topic");
   }
-  if (arguments.rig.empty()) sensors.cameras.resize(1);
+  if (arguments.rig.empty() && !arguments.stereo) sensors.cameras.resize(1);
   if (!arguments.depth) sensors.depth.reset();
   return sensors;
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes an animation of a run, such as docs/images/flight.webp: images with tracks, and the growing
-map from above.
+map, seen obliquely from above and turned so that its walls are along the picture.
 
 The run needs images with tracks (run_offline --save-track-images 0.15). Writes an animated WebP."""
 
@@ -24,6 +24,9 @@ from pages.run_figures import LINE_COLORS  # noqa: E402
 SIZE_IN = (7.52, 3.6)  # size of the map [inches]
 REACH = 8  # a landmark appears when it is in view within this distance [m]
 HALF_VIEW = np.cos(np.radians(45))  # cosine of half the field of view
+ELEVATION = np.radians(50)  # of the eye that looks at the map
+# Least parallax of what is drawn: with less, depths are too uncertain for a picture [rad].
+LEAST_PARALLAX = {"points": np.radians(4), "lines": np.radians(8)}
 
 
 def parse_arguments(arguments):
@@ -43,29 +46,59 @@ def optical_axes(run):
     return run.trajectory.rotations @ axis_B
 
 
-def first_views(places, positions, axes):
-    """Index of the first pose that views each place (n, 3); of the last pose if none does."""
-    first = np.full(len(places), len(positions) - 1)
-    for index in range(len(positions) - 1, -1, -1):
-        rays = places - positions[index]
+class Views:
+    """Which poses view places: within REACH and in the field of view."""
+
+    def __init__(self, positions, axes):
+        self._positions, self._axes = positions[::4], axes[::4]
+
+    def find(self, places, least_parallax):
+        """Returns the index of the first pose that views each place (n, 3); -1 if its rays differ
+        by less than `least_parallax`."""
+        return np.array([self._first(place, least_parallax) for place in places], dtype=int)
+
+    def _first(self, place, least_parallax):
+        rays = place - self._positions
         distances = np.linalg.norm(rays, axis=1)
-        first[(distances < REACH) & (rays @ axes[index] > HALF_VIEW * distances)] = index
-    return first
+        rays /= distances[:, None]
+        seen = np.flatnonzero((distances < REACH) & (np.sum(rays * self._axes, axis=1) > HALF_VIEW))
+        if len(seen) == 0 or np.min(rays[seen] @ rays[seen[0]]) > np.cos(least_parallax):
+            return -1
+        return 4 * seen[0]
+
+
+def heading_of_walls(lines):
+    """Returns the angle [rad] by which the directions of level lines (n, 2, 3), which repeat every
+    quarter turn, differ from the axes; long lines count more."""
+    ways = lines[:, 1] - lines[:, 0]
+    level = ways[np.abs(ways[:, 2]) < 0.2 * np.linalg.norm(ways, axis=1), :2]
+    angles = np.arctan2(level[:, 1], level[:, 0])
+    return np.angle(np.sum(np.linalg.norm(level, axis=1) * np.exp(4j * angles))) / 4
 
 
 class GrowingMap:
-    """Draws the map from above as it is known at a pose."""
+    """Draws the map as it is known at a pose."""
 
     def __init__(self, run):
-        self._path = run.trajectory.positions
-        axes = optical_axes(run)
-        self._points = run.points
-        self._points_from = first_views(run.points, self._path, axes)
-        self._lines = [(LINE_COLORS[axis], ends, first_views(ends.mean(axis=1), self._path, axes))
-                       for axis, ends in run.lines.items()]
-        ahead = self._path + REACH / 2 * axes
-        self._low, self._high = (bound(np.concatenate([self._path, ahead])[:, :2], axis=0)
-                                 for bound in (np.min, np.max))
+        views = Views(run.trajectory.positions, optical_axes(run))
+        self._heading = heading_of_walls(np.concatenate(list(run.lines.values())))
+        self._path = self._project(run.trajectory.positions)
+        self._points_from = views.find(run.points, LEAST_PARALLAX["points"])
+        self._points = self._project(run.points)
+        self._lines = []
+        for axis, ends in run.lines.items():
+            first = views.find(ends.mean(axis=1), LEAST_PARALLAX["lines"])
+            drawn = first >= 0
+            self._lines.append((LINE_COLORS[axis], self._project(ends)[drawn], first[drawn]))
+        shown = [self._path, self._points[self._points_from >= 0]]
+        self._low, self._high = np.percentile(np.concatenate(shown), [1, 99], axis=0)
+
+    def _project(self, places):
+        """Returns coordinates (..., 2) in the picture: the walls of the map are parallel to it."""
+        c, s = np.cos(self._heading), np.sin(self._heading)
+        x, y, z = places[..., 0], places[..., 1], places[..., 2]
+        right, ahead = c * x + s * y, c * y - s * x
+        return np.stack([right, np.sin(ELEVATION) * ahead + np.cos(ELEVATION) * z], axis=-1)
 
     def draw(self, index, width):
         figure = pyplot.figure(figsize=SIZE_IN, dpi=width / SIZE_IN[0])
@@ -73,13 +106,13 @@ class GrowingMap:
         axes.set(xlim=(self._low[0], self._high[0]), ylim=(self._low[1], self._high[1]))
         axes.set_aspect("equal", adjustable="datalim")
         axes.set_axis_off()
-        axes.plot(*self._points[self._points_from <= index, :2].T, ".", color="#7a8794",
-                  markersize=2.5)
+        known = (self._points_from >= 0) & (self._points_from <= index)
+        axes.plot(*self._points[known].T, ".", color="#7a8794", markersize=2.5)
         for color, ends, first in self._lines:
             for start, end in ends[first <= index]:
-                axes.plot(*zip(start[:2], end[:2]), color=color, linewidth=1.2)
-        axes.plot(*self._path[:index + 1, :2].T, color="#d0008f", linewidth=2)
-        axes.plot(*self._path[index, :2], "o", color="#d0008f", markersize=6)
+                axes.plot(*zip(start, end), color=color, linewidth=1.2)
+        axes.plot(*self._path[:index + 1].T, color="#d0008f", linewidth=2)
+        axes.plot(*self._path[index], "o", color="#d0008f", markersize=6)
         picture = io.BytesIO()
         figure.savefig(picture, format="png")
         pyplot.close(figure)

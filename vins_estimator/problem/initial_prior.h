@@ -21,11 +21,11 @@ struct InitialUncertainty {
   // If set, roll and pitch come from the mean specific force at standstill, whose standard
   // deviation this is [m/s^2]; `inclination` is then not used.
   std::optional<double> leveled_by = std::nullopt;
-  double extrinsic_position = 0.02;       // of the first camera [m]
-  double extrinsic_rotation = 0.02;       // of the first camera [rad]
-  double td = 0.01;                       // [s]
-  double depth_scale = kLengthDeviation;  // relative
-  double depth_delay = 0.01;              // [s]
+  double extrinsic_position = 0.02;           // of the first camera [m]
+  double extrinsic_rotation = 0.02;           // of the first camera [rad]
+  double td = 0.01;                           // [s]
+  double depth_scale = kDepthScaleDeviation;  // relative
+  double depth_delay = 0.01;                  // [s]
   IntrinsicsDeviation intrinsics;
 };
 

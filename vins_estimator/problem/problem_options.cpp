@@ -31,7 +31,7 @@ ExtrinsicsLink LinkOf(const SensorConfig& sensor, int camera) {
             camera,
             T_first_second,
             /*is_pair=*/true,
-            {kPairRotation * length, kLengthDeviation * length, kPairRotation}};
+            {kPairRotation * length, kBaselineDeviation * length, kPairRotation}};
   }
   return {0, camera, link(0), /*is_pair=*/false, {kRigPosition, kRigPosition, kRigRotation}};
 }

@@ -17,9 +17,11 @@ namespace plm_vins {
 // marginalize.
 enum class JacobiansAt { kValues, kFirstEstimates };
 
-// Relative standard deviation of the lengths that a calibrated stereo camera, or depth sensor,
-// measures: of the baseline, or of depths.
-constexpr double kLengthDeviation = 0.002;
+// Relative standard deviations of the baseline of a calibrated stereo camera, and of the scale of
+// measured depths. The baseline must be known better than an accelerometer knows lengths: its scale
+// factor may be wrong by 1 %, which would otherwise stretch the baseline and the path.
+constexpr double kBaselineDeviation = 0.0005;
+constexpr double kDepthScaleDeviation = 0.002;
 
 // The configured pose of a camera j in a camera i, with a lower number.
 struct ExtrinsicsLink {

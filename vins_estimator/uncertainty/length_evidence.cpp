@@ -24,8 +24,8 @@ std::optional<LengthEvidence> IfSignificant(const std::optional<LengthEvidence>&
 
 }  // namespace
 
-std::optional<LengthEvidence> WithoutPrior(double estimate, double variance) {
-  const double information = 1 / variance - 1 / (kLengthDeviation * kLengthDeviation);
+std::optional<LengthEvidence> WithoutPrior(double estimate, double variance, double prior) {
+  const double information = 1 / variance - 1 / (prior * prior);
   if (!(information > 1 / (kMaxDeviation * kMaxDeviation))) return std::nullopt;
   return LengthEvidence{estimate / (variance * information),
                         std::hypot(1 / std::sqrt(information), kAccelScaleDeviation)};
@@ -51,7 +51,8 @@ std::optional<LengthEvidence> BaselineError(const ExtrinsicsLink& pair, const Sl
   d_log_length.head<3>() = baseline_B / (length * length);
   if (ids.size() > 1) d_log_length.segment<3>(kPoseTangentSize) = -d_log_length.head<3>();
   return IfSignificant(WithoutPrior(std::log(length / pair.T_Ci_Cj.translation.norm()),
-                                    d_log_length.dot(*covariance * d_log_length)));
+                                    d_log_length.dot(*covariance * d_log_length),
+                                    kBaselineDeviation));
 }
 
 DepthFaults FaultsOfDepths(const SlidingWindow& window, NormalEquations* equations) {
@@ -60,7 +61,8 @@ DepthFaults FaultsOfDepths(const SlidingWindow& window, NormalEquations* equatio
   const Eigen::MatrixXd& covariance = *known;
   DepthFaults faults;
   const double scale = window.depth_stream[kDepthScale], delay = window.depth_stream[kDepthDelay];
-  faults.scale = IfSignificant(WithoutPrior(scale, covariance(kDepthScale, kDepthScale)));
+  faults.scale = IfSignificant(
+      WithoutPrior(scale, covariance(kDepthScale, kDepthScale), kDepthScaleDeviation));
   const double deviation = std::sqrt(covariance(kDepthDelay, kDepthDelay));
   if (std::abs(delay) > std::max(kMinDelay, kMinSignificance * deviation)) faults.delay = delay;
   return faults;

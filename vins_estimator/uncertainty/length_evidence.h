@@ -12,10 +12,10 @@
 
 namespace plm_vins {
 
-// Removes the prior of deviation kLengthDeviation from an estimate of the logarithm of a length
+// Removes the prior of standard deviation `prior` from an estimate of the logarithm of a length
 // relative to the stated one, given its variance P: the estimate is the mean of the prior's zero
 // and of the evidence, weighted by their information. Returns nullopt without evidence.
-std::optional<LengthEvidence> WithoutPrior(double estimate, double variance);
+std::optional<LengthEvidence> WithoutPrior(double estimate, double variance, double prior);
 
 // Returns whether an error is too large and too certain to be left unreported.
 bool IsSignificant(const LengthEvidence& evidence);

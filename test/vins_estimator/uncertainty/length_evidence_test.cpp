@@ -5,20 +5,19 @@
 
 #include <cmath>
 
-#include "vins_estimator/problem/problem_options.h"
-
 namespace plm_vins {
 namespace {
 
+constexpr double kPrior = 0.002;
 constexpr double kAccelScaleDeviation = 0.0025;  // considered
 
 // Combines evidence and the prior's zero.
 TEST(LengthEvidence, IsWhatRemainsWithoutThePrior) {
-  const double prior = 1 / std::pow(kLengthDeviation, 2);
+  const double prior = 1 / std::pow(kPrior, 2);
   for (const double deviation : {0.001, 0.004, 0.02}) {
     const double of_data = std::pow(deviation, -2);
     const double variance = 1 / (of_data + prior);
-    const auto evidence = WithoutPrior(0.01 * of_data * variance, variance);
+    const auto evidence = WithoutPrior(0.01 * of_data * variance, variance, kPrior);
     ASSERT_TRUE(evidence);
     EXPECT_NEAR(evidence->error, 0.01, 1e-12);
     EXPECT_NEAR(evidence->deviation, std::hypot(deviation, kAccelScaleDeviation), 1e-12);
@@ -26,7 +25,7 @@ TEST(LengthEvidence, IsWhatRemainsWithoutThePrior) {
 }
 
 TEST(LengthEvidence, DoesNotExistWhereThePriorAloneDecides) {
-  EXPECT_FALSE(WithoutPrior(0, kLengthDeviation * kLengthDeviation));
+  EXPECT_FALSE(WithoutPrior(0, kPrior * kPrior, kPrior));
 }
 
 TEST(LengthEvidence, IsSignificantBeyondThreeStandardDeviations) {

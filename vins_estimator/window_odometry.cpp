@@ -77,12 +77,11 @@ WindowOdometry::Tracked WindowOdometry::Track(
   return tracked;
 }
 
-// Known depths constrain a slow motion better than standstill does; without, standstill is safer.
+// If corners move together, the body moves, although too slowly for the IMU to show it. Declaring
+// it still would leave its acceleration to the bias of the accelerometer.
 std::optional<int64_t> WindowOdometry::StillSince(
     const std::optional<StandstillDetector::Standstill>& standstill) const {
-  if (!standstill) return std::nullopt;
-  const bool moves = standstill->common_px > options_->max_motion_at_rest_px;
-  if (moves && MedianDepth()) return std::nullopt;
+  if (!standstill || standstill->common_px > options_->max_motion_at_rest_px) return std::nullopt;
   return standstill->since_ns;
 }
 

@@ -17,7 +17,10 @@ namespace {
 
 constexpr double kStandstillDuration = 0.75;  // [s]
 constexpr double kQuietDuration = 0.45;       // if the IMU varies by its noise alone [s]
-constexpr double kMinMotionDuration = 1.5;    // [s]
+constexpr double kMaxCommonMotion_px = 0.15;  // in that time
+constexpr double kMinMotionDuration = 0.745;  // 15 intervals of 20 Hz [s]
+// If the IMU shows its noise alone, a scene that moves would fit as well for a moment [s].
+constexpr double kMinUnfeltDuration = 1.5;
 constexpr double kStereoStandstillDuration = 0.25;
 constexpr double kMinStereoMotionDuration = 0.295;  // six intervals of 20 Hz
 constexpr double kMaxDuration = 3.0;                // length of the buffer [s]
@@ -26,12 +29,7 @@ constexpr double kMaxSkipped = 1.0;                 // time without a usable ima
 constexpr size_t kMinFrames = 6;
 constexpr size_t kMinStereoFrames = 4;
 constexpr size_t kMaxFrames = 11;
-constexpr double kAttemptInterval = 0.125;  // an attempt takes as long as several images [s]
-// The accepted scale uncertainty grows with the waiting time, because a vehicle that has moved too
-// little for seconds may continue so. If propellers cause vibration, the estimated uncertainty is
-// half the true one.
-constexpr double kScaleDeviationPerSecond = 0.015;  // relative [1/s]
-constexpr double kMaxScaleDeviation = 0.075;
+constexpr double kAttemptInterval = 0.095;  // an attempt takes as long as several images [s]
 
 // Returns whether the depth of points is measured in single frames.
 bool HasDepth(const SensorConfig& sensor) { return sensor.depth || !StereoPairs(sensor).empty(); }
@@ -143,14 +141,14 @@ void Initializer::Append(const FrameMeasurement& measurement) {
 }
 
 std::optional<InitializationResult> Initializer::Add(const FrameMeasurement& measurement) {
-  if (!start_ns_) start_ns_ = measurement.t_ns;
   const bool skipped = Skip(measurement);
   if (!skipped) Append(measurement);
   const FrameMeasurement& added = buffer_.size() > 1 || skipped ? measurement : buffer_.front();
   auto standstill = standstill_.Add(added);
   const auto quiet = quiet_standstill_.Add(added);
   if (skipped) return std::nullopt;
-  if (!standstill) standstill = quiet;
+  // A slow take-off looks like standstill for half a second, but its corners move together.
+  if (!standstill && quiet && quiet->common_px <= kMaxCommonMotion_px) standstill = quiet;
   if (calibrator_) CalibrateRotation();
   if (calibrator_) return std::nullopt;
   return standstill ? TryStandstill(standstill->since_ns) : TryMotion();
@@ -185,7 +183,9 @@ std::optional<InitializationResult> Initializer::TryStandstill(int64_t since_ns)
 
 bool Initializer::MayTryMotion(bool stereo) {
   const double duration = ToSeconds(buffer_.back().t_ns - buffer_.front().t_ns);
-  const double least = stereo ? kMinStereoMotionDuration : kMinMotionDuration;
+  const double least = stereo                             ? kMinStereoMotionDuration
+                       : standstill_.sees_unfelt_motion() ? kMinUnfeltDuration
+                                                          : kMinMotionDuration;
   const size_t min_frames = stereo ? kMinStereoFrames : kMinFrames;
   if (duration >= least && buffer_.size() >= min_frames) return true;
   if (buffer_.size() > 1) {
@@ -203,8 +203,6 @@ std::optional<InitializationResult> Initializer::TryMotion() {
   }
   last_attempt_ns_ = now_ns;
   MotionInitializerOptions options;
-  options.max_scale_deviation =
-      std::min(kMaxScaleDeviation, kScaleDeviationPerSecond * ToSeconds(now_ns - *start_ns_));
   options.stereo = has_depth_;
   options.camera = BusiestCamera(buffer_.back().points, sensor_.cameras.size());
   std::vector<FrameMeasurement> frames = JoinFrames(buffer_, SelectFrames(buffer_, max_frames_));

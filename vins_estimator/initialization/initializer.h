@@ -31,12 +31,13 @@ struct InitializationResult {
 };
 
 // Initializes the estimator: from standstill once the body has stood still for 0.75 s, or for half
-// a second if the IMU shows its noise alone; otherwise from motion once at least 1.5 s of images
-// make gravity, velocity and scale observable. With overlapping cameras or measured depth, 0.25 s
-// of standstill or 0.3 s of motion suffice. World: z up, origin and zero heading at the first frame
-// of the result. If the camera's rotation has to be calibrated, this comes first and requires
-// rotations about at least two axes. While waiting, reason() states why. Stores at most three
-// seconds of images. Its result is deterministic.
+// a second if the IMU shows its noise alone; otherwise from motion once at least 0.75 s of images
+// make gravity, velocity and scale observable. A scale that is uncertain by 10 % is enough: the
+// window is optimized as a whole until it is full, and its covariance states the uncertainty. With
+// overlapping cameras or measured depth, 0.25 s of standstill or 0.3 s of motion suffice. World: z
+// up, origin and zero heading at the first frame of the result. If the camera's rotation has to be
+// calibrated, this comes first and requires rotations about at least two axes. While waiting,
+// reason() states why. Stores at most three seconds of images. Its result is deterministic.
 class Initializer {
  public:
   explicit Initializer(const Config& config);
@@ -76,7 +77,6 @@ class Initializer {
   std::optional<ExtrinsicCalibrator> calibrator_;  // until the rotation is known
   std::deque<FrameMeasurement> buffer_;            // contiguous in IMU samples and tracks
   std::vector<ImuSample> skipped_imu_;             // since the newest image in the buffer
-  std::optional<int64_t> start_ns_;                // first image since the reset
   std::optional<int64_t> last_attempt_ns_;         // last attempt to initialize from motion
   std::string reason_ = "waiting for images";
 };

@@ -125,7 +125,8 @@ void Attempt::ChainRotations() {
 bool Attempt::Reconstruct() {
   std::vector<Eigen::Quaterniond> R_G_C;
   for (const Eigen::Quaterniond& R_G_B : R_G_B_) R_G_C.push_back(R_G_B * T_B_C_.rotation);
-  const GlobalSfmOptions options{focal_length_, noise_px_, options_.min_parallax_px};
+  const GlobalSfmOptions options{focal_length_, noise_px_,
+                                 options_.min_parallax_sigmas * noise_px_};
   const auto structure = ReconstructStructure(tracks_, R_G_C, options, reason_);
   if (structure) structure_ = *structure;
   return structure.has_value();

@@ -12,13 +12,16 @@
 namespace plm_vins {
 
 struct MotionInitializerOptions {
-  double min_parallax_px = 15;        // median over the points of the best pair of images
-  double max_scale_deviation = 0.05;  // relative, of the adjusted states
-  double max_reprojection_rms = 2;    // in standard deviations of a corner
-  double max_imu_rms = 3;             // in standard deviations of the preintegrated measurements
-  double max_accel_bias = 1.0;        // [m/s^2]
-  double max_gyro_bias = 0.5;         // [rad/s]
-  int camera = 0;                     // whose points alone are used, unless `stereo`
+  double min_parallax_sigmas = 4;  // median over the points of the best pair, in standard
+                                   // deviations of a corner
+  // Relative, of the adjusted states. If propellers cause vibration, the estimated uncertainty is
+  // half the true one.
+  double max_scale_deviation = 0.1;
+  double max_reprojection_rms = 2;  // in standard deviations of a corner
+  double max_imu_rms = 3;           // in standard deviations of the preintegrated measurements
+  double max_accel_bias = 1.0;      // [m/s^2]
+  double max_gyro_bias = 0.5;       // [rad/s]
+  int camera = 0;                   // whose points alone are used, unless `stereo`
   // Uses overlapping cameras or measured depth: needs neither parallax nor acceleration.
   bool stereo = false;
 };

@@ -73,12 +73,12 @@ TEST(InitializerTest, StartsInFlight) {
       const FrameState& newest = start->result.frames.back().state;
       const FrameState& truth = flight.truth[start->index];
       EXPECT_EQ(newest.t_ns, truth.t_ns);
-      EXPECT_LT(std::abs(scale_error), 0.1) << "seed " << seed;
+      EXPECT_LT(std::abs(scale_error), 0.2) << "seed " << seed;  // two standard deviations
       EXPECT_LT(testing::GravityError(newest, truth), 0.025) << "seed " << seed;
-      EXPECT_LT(testing::VelocityError(newest, truth), 0.1) << "seed " << seed;
-      EXPECT_LT((newest.gyro_bias() - truth.gyro_bias()).norm(), 0.01) << "seed " << seed;
+      EXPECT_LT(testing::VelocityError(newest, truth), 0.2) << "seed " << seed;
+      EXPECT_LT((newest.gyro_bias() - truth.gyro_bias()).norm(), 0.02) << "seed " << seed;
     }
-    EXPECT_LT(std::sqrt(squared_scale_error), 0.04);
+    EXPECT_LT(std::sqrt(squared_scale_error), 0.05);
   }
 }
 
@@ -96,6 +96,21 @@ TEST(InitializerTest, StartsInFlightIfTheConfigurationOverstatesTheAccelerometer
     EXPECT_LE(start->index, 60u) << "seed " << seed;
     EXPECT_LT(std::abs(ScaleError(*start, flight)), 0.15) << "seed " << seed;
   }
+}
+
+// Fast motion makes the scale observable within a second.
+TEST(InitializerTest, StartsWithinASecondOfFastFlight) {
+  constexpr int kSeeds = 10;
+  double images = 0;
+  for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const auto options = FlightOptions(simulator::Motion::kFast, seed);
+    const SimulatedFlight flight = SimulateFlight(options, /*skip=*/4);
+    Initializer initializer(ConfigFor(flight));
+    const auto start = Feed(flight, &initializer);
+    ASSERT_TRUE(start) << "seed " << seed << ": " << initializer.reason();
+    images += static_cast<double>(start->index) / kSeeds;
+  }
+  EXPECT_LT(images / 20, 1.0);
 }
 
 TEST(InitializerTest, FramesAreLinkedByTheirImuSamples) {
@@ -184,7 +199,7 @@ TEST(InitializerTest, StartsWithBlankImagesAtARhythm) {
 
 TEST(InitializerTest, GapInTheImuStartsOver) {
   SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kFast, 1), 4);
-  constexpr size_t kGap = 20;  // this image is lost, with the samples on both sides of it
+  constexpr size_t kGap = 10;  // this image is lost, with the samples on both sides of it
   std::vector<FrameMeasurement>& frames = flight.frames;
   frames[kGap + 1].imu = {frames[kGap].imu.front(), frames[kGap + 1].imu.back()};
   frames.erase(frames.begin() + kGap);

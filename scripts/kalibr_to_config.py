@@ -8,6 +8,7 @@ The files of OpenVINS, kalibr_imucam_chain.yaml and kalibr_imu_chain.yaml, have 
 
 import argparse
 import os
+import re
 import sys
 
 from kalibr.cameras import camera_lines
@@ -16,6 +17,7 @@ from kalibr.mounting import camera_in_imu, matrix_lines
 from kalibr.sections import KalibrError, read_section
 
 MAX_CAMERAS = 4
+MAX_TIME_DIFFERENCE = 1e-3  # between cameras that are triggered together [s]
 
 
 def extrinsic_lines(T_B_C, td):
@@ -34,9 +36,26 @@ def further_camera_lines(number, camera, T_B_C):
             *matrix_lines(f"body_T_cam{number}", T_B_C, "m")]
 
 
+def warnings_of(chain, imu, names):
+    """Returns what a conversion leaves out."""
+    others = [key for key in chain.values if re.fullmatch(r"cam\d+", str(key)) and key not in names]
+    warnings = []
+    if others:
+        warnings.append(f"{chain.file}: {', '.join(others)} not converted; --cam"
+                        f" {' '.join([*names, *others])} does that")
+    offsets = {name: imu.time_offset_of(chain.section(name)) for name in names}
+    for name in names[1:]:
+        later = offsets[name] - offsets[names[0]]
+        if abs(later) > MAX_TIME_DIFFERENCE:
+            warnings.append(f"{chain.file}: {name}.timeshift_cam_imu differs from that of"
+                            f" {names[0]} by {1e3 * later:.3g} ms, which is not converted: cameras"
+                            " must be triggered together")
+    return warnings
+
+
 def convert(camchain_file, imu_file, camera_names):
-    """Returns the configuration as text; raises KalibrError."""
-    chain = read_section(camchain_file)
+    """Returns the configuration as text, and warnings; raises KalibrError."""
+    chain = read_section(camchain_file, "relative_config_imucam")
     if len(camera_names) > MAX_CAMERAS:
         raise KalibrError(f"--cam: {len(camera_names)} cameras; at most {MAX_CAMERAS} are"
                           " supported")
@@ -57,16 +76,17 @@ def convert(camchain_file, imu_file, camera_names):
         paragraphs.append(further_camera_lines(number, chain.section(name),
                                                T_I_B @ camera_in_imu(chain, name)))
     paragraphs += [imu.noise_lines(), imu.correction_lines()]
-    return "\n\n".join("\n".join(lines) for lines in paragraphs if lines) + "\n"
+    text = "\n\n".join("\n".join(lines) for lines in paragraphs if lines) + "\n"
+    return text, warnings_of(chain, imu, camera_names)
 
 
 def parse_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("camchain", help="camchain-imucam-*.yaml of kalibr_calibrate_imu_camera, or"
-                        " kalibr_imucam_chain.yaml of OpenVINS")
+                        " kalibr_imucam_chain.yaml or estimator_config.yaml of OpenVINS")
     parser.add_argument("imu", help="imu-*.yaml of Kalibr, the imu.yaml given to it, or"
-                        " kalibr_imu_chain.yaml of OpenVINS")
+                        " kalibr_imu_chain.yaml or estimator_config.yaml of OpenVINS")
     parser.add_argument("--cam", nargs="+", default=["cam0"], help="cameras of the chain, by number"
                         " (default: cam0)")
     parser.add_argument("--output", metavar="FILE", help="new file (default: standard output)")
@@ -76,7 +96,9 @@ def parse_arguments(arguments):
 def main(arguments=None):
     options = parse_arguments(arguments)
     try:
-        text = convert(options.camchain, options.imu, options.cam)
+        text, warnings = convert(options.camchain, options.imu, options.cam)
+        for warning in warnings:
+            print(f"kalibr_to_config.py: warning: {warning}", file=sys.stderr)
         if options.output is None:
             sys.stdout.write(text)
         else:

@@ -38,9 +38,21 @@ def camera_lines(camera):
                            " pinhole-radtan, pinhole-equi or omni-radtan")
     model, distortion = kind
     intrinsics = camera.numbers("intrinsics", 5 if model == "omni" else 4)
-    coefficients = camera.numbers("distortion_coeffs", DISTORTION_SIZES[distortion]) or [0.0] * 4
+    coefficients = _distortion(camera, DISTORTION_SIZES[distortion])
     mirror = ["mirror_parameters:", f"   xi: {intrinsics[0]!r}  # [1]"] if model == "omni" else []
     return _lines(MODEL_TYPES[kind], size, mirror, intrinsics[-4:], coefficients)
+
+
+def _distortion(camera, size):
+    """Returns four coefficients. ROS writes five for plumb_bob, of which the last, k3, may be 0."""
+    values = camera.get("distortion_coeffs")
+    if size == 4 and isinstance(values, list) and len(values) == 5:
+        *first, k3 = camera.numbers("distortion_coeffs", 5)
+        if k3 != 0:
+            raise camera.error("distortion_coeffs", f"the fifth, k3 = {k3!r}, is not supported;"
+                               " calibrate with four, or with pinhole-equi")
+        return first
+    return camera.numbers("distortion_coeffs", size) or [0.0] * 4
 
 
 def _refuse_rolling_shutter(camera):

@@ -18,7 +18,7 @@ class Imu:
     """The whole file as given to Kalibr, or imu0 in the file that Kalibr writes."""
 
     def __init__(self, file):
-        self._values = read_section(file)
+        self._values = read_section(file, "relative_config_imu")
         if "imu0" in self._values.values:
             self._values = self._values.section("imu0")
         model = self._values.values.get("model", "calibrated")

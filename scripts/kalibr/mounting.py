@@ -5,6 +5,9 @@ import re
 
 import numpy as np
 
+MAX_DISTANCE = 10  # of a camera from the IMU; the configuration reader accepts as much [m]
+MAX_DIFFERENCE, MAX_ANGLE = 2e-3, 0.2  # between two statements of a transform [m], [deg]
+
 
 def matrix_lines(key, matrix, unit):
     """Returns a matrix in OpenCV's notation."""
@@ -30,10 +33,34 @@ def camera_in_imu(chain, name):
     """
     camera = chain.section(name)
     if "T_imu_cam" in camera.values:
-        return camera.transform("T_imu_cam")
+        return _near(camera, "T_imu_cam", camera.transform("T_imu_cam"))
     number = re.fullmatch(r"cam([1-9]\d*)", name)
-    if "T_cam_imu" not in camera.values and "T_cn_cnm1" in camera.values and number:
+    by_chain = None
+    if "T_cn_cnm1" in camera.values and number:
         previous = camera_in_imu(chain, f"cam{int(number[1]) - 1}")
-        return previous @ inverse(camera.transform("T_cn_cnm1"))
+        by_chain = previous @ inverse(camera.transform("T_cn_cnm1"))
+        if "T_cam_imu" not in camera.values:
+            return _near(camera, "T_cn_cnm1", by_chain)
     hint = "give the camchain-imucam file of kalibr_calibrate_imu_camera"
-    return inverse(camera.transform("T_cam_imu", hint))
+    T_B_C = _near(camera, "T_cam_imu", inverse(camera.transform("T_cam_imu", hint)))
+    if by_chain is not None:
+        _check_agreement(camera, T_B_C, by_chain)
+    return T_B_C
+
+
+def _near(camera, key, T_B_C):
+    distance = np.linalg.norm(T_B_C[:3, 3])
+    if distance > MAX_DISTANCE:
+        raise camera.error(key, f"the camera is {distance:.4g} m from the IMU: is its translation"
+                           " in mm? It must be in m")
+    return T_B_C
+
+
+def _check_agreement(camera, T_B_C, by_chain):
+    difference = inverse(T_B_C) @ by_chain
+    distance = np.linalg.norm(difference[:3, 3])
+    cosine = np.clip((np.trace(difference[:3, :3]) - 1) / 2, -1, 1)
+    angle = np.degrees(np.arccos(cosine))
+    if distance > MAX_DIFFERENCE or angle > MAX_ANGLE:
+        raise camera.error("T_cam_imu", f"contradicts T_cn_cnm1, by {1e3 * distance:.3g} mm and"
+                           f" {angle:.3g} deg; correct or remove one of them")

@@ -2,6 +2,7 @@
 """Checked values of the maps in Kalibr's files."""
 
 import math
+import os
 
 import numpy as np
 import yaml
@@ -88,8 +89,16 @@ class Section:
         return number
 
 
-def read_section(file):
-    """Reads the whole file as a Section."""
+def read_section(file, link=None):
+    """Reads the whole file as a Section, or the file beside it that it names under the key `link`,
+    as the estimator_config.yaml of OpenVINS does."""
+    section = _read(file)
+    if link not in section.values:
+        return section
+    return _read(os.path.join(os.path.dirname(file), section.text(link)))
+
+
+def _read(file):
     try:
         with open(file, encoding="utf-8") as stream:
             text = stream.read()

@@ -434,5 +434,56 @@ class BadInput(Kalibr):
         self.assertEqual(output.read_text(encoding="utf-8"), "precious")
 
 
+class Contradictions(Kalibr):
+    def chain(self, **changes):
+        """Returns two cameras, the second one 0.1 m beside the first, as both keys state."""
+        beside = [[1, 0, 0, -0.1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+        T_cam_imu = (np.array(beside) @ np.array(CAMERA["T_cam_imu"])).tolist()
+        second = edited(CAMERA, rostopic="/right/image_raw", T_cam_imu=T_cam_imu, T_cn_cnm1=beside)
+        return {"cam0": CAMERA, "cam1": edited(second, **changes)}
+
+    def assert_refused(self, text, **inputs):
+        result = self.convert("--cam", "cam0", "cam1", **inputs)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(text, result.stderr)
+
+    def test_two_statements_that_agree(self):
+        result = self.convert("--cam", "cam0", "cam1", chain=self.chain())
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+    def test_two_statements_that_do_not(self):
+        turned = [[1, 0, 0, -0.12], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+        self.assert_refused("T_cam_imu: contradicts T_cn_cnm1, by 20 mm and 0 deg",
+                            chain=self.chain(T_cn_cnm1=turned))
+
+    def test_millimeters(self):
+        T_cam_imu = np.array(CAMERA["T_cam_imu"])
+        T_cam_imu[:3, 3] *= 1000
+        self.assert_refused("is its translation in mm", chain=self.chain(
+            T_cam_imu=T_cam_imu.tolist(), T_cn_cnm1=None))
+
+    def test_what_is_not_converted_is_said(self):
+        chain = self.chain(timeshift_cam_imu=0.0175)
+        self.assertIn("cam1 not converted; --cam cam0 cam1", self.convert(chain=chain).stderr)
+        result = self.convert("--cam", "cam0", "cam1", chain=chain)
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("cam1.timeshift_cam_imu differs from that of cam0 by 5 ms", result.stderr)
+
+    def test_plumb_bob_of_ros_has_five_coefficients(self):
+        five = edited(CAMERA, distortion_model="plumb_bob",
+                      distortion_coeffs=[*CAMERA["distortion_coeffs"], 0.0])
+        self.assertEqual(self.convert(chain={"cam0": five}).stdout, self.convert().stdout)
+        five["distortion_coeffs"][4] = 0.01
+        self.assertIn("the fifth, k3 = 0.01", self.convert(chain={"cam0": five}).stderr)
+
+    def test_estimator_config_of_openvins_leads_to_its_calibration(self):
+        expected = self.convert().stdout
+        names = {"relative_config_imucam": "chain.yaml", "relative_config_imu": "imu.yaml"}
+        config = self.write("estimator_config.yaml", "%YAML:1.0\n\n" + yaml.safe_dump(names))
+        result = run(SCRIPT, config, config)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout.splitlines()[2:], expected.splitlines()[2:])
+
+
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

@@ -38,7 +38,7 @@ struct ImageSample {
 // Image of the depth along the optical axis, registered to camera 0: its size and lens apply.
 struct DepthSample {
   int64_t t_ns = 0;
-  cv::Mat depth;  // CV_16UC1 [mm], 0 if unknown, or CV_32FC1 [m]; read only
+  cv::Mat depth;  // CV_16UC1 [depth_unit], 0 if unknown, or CV_32FC1 [m]; read only
   std::shared_ptr<const void> owner = {};  // owner of the pixels if `depth` is not; keep both
 };
 

@@ -69,7 +69,7 @@ ConfigKeys<C> KeysOf(const ModelNames& names) {
   for (size_t i = 0; i < names.distortion.size(); ++i) {
     const auto coefficient = [i](auto& camera) -> auto& { return camera.distortion[i]; };
     keys.push_back(CameraKey::Number(names.distortion_group + "." + names.distortion[i], "",
-                                     {-10, 10}, coefficient));
+                                     {-1e4, 1e4}, coefficient));
   }
   if (names.model == C::Model::kMei) {
     keys.push_back(CameraKey::Number("mirror_parameters.xi", "", {0, 10}, &C::xi));

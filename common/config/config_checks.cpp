@@ -102,11 +102,38 @@ void CheckNoise(const ConfigEntries& entries, const Report& report) {
   }
 }
 
+// Returns the power of the distance from the center by which a coefficient changes a position.
+int PowerOf(CameraParameters::Model model, int coefficient) {
+  if (model == CameraParameters::Model::kPinholeEquidistant) return 2 * (coefficient + 1);
+  return coefficient < 2 ? 2 * (coefficient + 1) : 1;
+}
+
+// The coefficients of a lens with a narrow view may be large, as may those of an MEI model with a
+// large xi, whose image plane is small. So what they do at the corner of the image is limited.
+void CheckDistortion(const CameraParameters& camera, const std::string& prefix,
+                     const Report& report) {
+  constexpr double kMostChange = 10;  // of the distance from the center, relative
+  if (!(camera.fx > 0 && camera.fy > 0)) return;
+  const double x = std::max(camera.cx, camera.width - camera.cx) / camera.fx;
+  const double y = std::max(camera.cy, camera.height - camera.cy) / camera.fy;
+  const double radius = std::hypot(x, y);
+  for (int i = 0; i < static_cast<int>(camera.distortion.size()); ++i) {
+    const double change =
+        std::abs(camera.distortion[i]) * std::pow(radius, PowerOf(camera.model, i));
+    if (!(change > kMostChange)) continue;
+    report(
+        prefix + "distortion_parameters",
+        "the coefficient " + ToText(ConfigValue(camera.distortion[i])) +
+            " moves the corner of the image by more than ten times its distance from the center");
+  }
+}
+
 void CheckImages(const Config& config, const Report& report) {
   for (size_t i = 0; i < config.sensor.cameras.size(); ++i) {
     const CameraParameters& camera = config.sensor.cameras[i].parameters;
     CheckPrincipalPoint(camera, CameraPrefix(static_cast<int>(i)), report);
     if (!HasSize(camera)) continue;
+    CheckDistortion(camera, CameraPrefix(static_cast<int>(i)), report);
     if (config.points.min_dist >= std::min(camera.width, camera.height)) {
       report("min_dist", "must be smaller than the image");
     }

@@ -113,6 +113,7 @@ ConfigKeys<S> DepthKeys() {
   using D = DepthSensor;
   const ConfigKeys<D> others = {
       ConfigKey<D>::Number("depth_noise", "1/m", {1e-6, 1}, &D::noise),
+      ConfigKey<D>::Number("depth_unit", "m", {1e-6, 1}, &D::unit),
       ConfigKey<D>::Number("depth_max", "m", {0.1, 1000}, &D::max),
   };
   return Join<S>({{{"depth_topic", "", "", read, value}}, Within(&S::depth, others)});
@@ -193,6 +194,7 @@ ConfigKeys<SensorConfig> SensorKeys(const std::vector<std::string>& model_types)
   const ConfigKeys<S> timing = {
       Key::Number("td", "s", {-1, 1}, &S::td),
       Key::Flag("estimate_td", &S::estimate_td),
+      Key::Number("stamp_tolerance", "s", {0, 0.02}, &S::stamp_tolerance),
       Key::Flag("rolling_shutter", &S::rolling_shutter),
       Key::Number("rolling_shutter_tr", "s", {0, 0.2}, &S::rolling_shutter_tr),
   };

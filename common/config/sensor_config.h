@@ -32,6 +32,7 @@ struct CameraSensor {
 struct DepthSensor {
   std::string topic;
   double noise = 0.002;  // standard deviation of a depth z is noise * z^2 [1/m]
+  double unit = 0.001;   // of an integer in a depth image of type 16UC1 [m]
   double max = 6;        // largest depth that is used [m]
 };
 
@@ -45,7 +46,8 @@ struct SensorConfig {
   std::optional<DepthSensor> depth;
   enum class ExtrinsicMode { kFixed = 0, kRefine = 1, kCalibrateRotation = 2 };
   ExtrinsicMode estimate_extrinsic = ExtrinsicMode::kFixed;
-  double td = 0.0;  // t_imu = t_image + td [s]
+  double td = 0.0;                 // t_imu = t_image + td [s]
+  double stamp_tolerance = 0.002;  // between images of different cameras at one time, and depth [s]
   bool estimate_td = false;
   bool rolling_shutter = false;
   double rolling_shutter_tr = 0.0;  // readout time of the whole image, rows top to bottom [s]

@@ -37,6 +37,20 @@ TEST_F(ConfigLimitsTest, RejectsExponentialAliases) {
   ExpectOneProblem(ProblemsOf(Write(wide + "z: 0}\n" + uses)), {"too many keys"});
 }
 
+// The plane of a mirror with a large xi is small, so coefficients are large: VINS-Fusion's EuRoC.
+TEST_F(ConfigLimitsTest, CoefficientsMayBeAsLargeAsTheImageAllows) {
+  const auto mei = [](const std::string& k2) {
+    std::string text = Replaced(kShortFile, "PINHOLE", "MEI\nmirror_parameters:\n   xi: 3.6313");
+    text = Replaced(text, "fx: 400, fy: 400, cx: 320, cy: 240",
+                    "gamma1: 2138.8, gamma2: 2135.7, u0: 361.2, v0: 248.3");
+    return Replaced(text, "k1: 0, k2: 0", "k1: 0.0646, k2: " + k2);
+  };
+  EXPECT_EQ(Load(mei("15.492")).sensor.cameras[0].parameters.distortion[1], 15.492);
+  ExpectOneProblem(ProblemsOf(Write(mei("9999"))), {"distortion_parameters", "9999"});
+  ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "k2: 0", "k2: 15.492"))),
+                   {"distortion_parameters", "15.492", "more than ten times"});
+}
+
 TEST_F(ConfigLimitsTest, RejectsEndlessFiles) {
   const std::string problem = "is not a regular file; give the path of a configuration file";
   ExpectOneProblem(ProblemsOf("/dev/zero"), {"/dev/zero: " + problem});

@@ -180,7 +180,7 @@ TEST_F(VinsFusionTest, WrittenFileLoadsWithEqualValues) {
   EXPECT_EQ(EffectiveValues(again).size(), EffectiveValues(config).size());
 
   config.sensor.cameras.resize(1);
-  config.sensor.depth = DepthSensor{"/depth", 0.004, 9};
+  config.sensor.depth = DepthSensor{"/depth", 0.004, 0.0002, 9};
   written.str("");
   WriteConfig(config, &written);
   const SensorConfig sensor = Load(written.str()).sensor;
@@ -188,6 +188,7 @@ TEST_F(VinsFusionTest, WrittenFileLoadsWithEqualValues) {
   ASSERT_TRUE(sensor.depth);
   EXPECT_EQ(sensor.depth->topic, "/depth");
   EXPECT_EQ(sensor.depth->noise, 0.004);
+  EXPECT_EQ(sensor.depth->unit, 0.0002);
   EXPECT_EQ(sensor.depth->max, 9);
 }
 

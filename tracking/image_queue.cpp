@@ -15,6 +15,7 @@ namespace {
 
 // Newer images that end the wait if the gyroscope did not reach the previous image either.
 constexpr size_t kMaxWaiting = 2;
+constexpr double kMostTolerance = 0.02;       // that the configuration allows [s]
 constexpr int64_t kMaxWait_ns = 500'000'000;  // longest wait otherwise, up to the newest image
 
 std::string Nearest(int64_t t_ns, const std::optional<int64_t>& last_ns) {
@@ -25,6 +26,14 @@ std::string Nearest(int64_t t_ns, const std::optional<int64_t>& last_ns) {
 }
 
 }  // namespace
+
+std::optional<double> ConstantOffset::Add(double later) {
+  constexpr double kJitter = 2e-4;  // [s]
+  constexpr int kInARow = 20;
+  in_a_row_ = std::abs(later - last_) < kJitter ? in_a_row_ + 1 : 0;
+  last_ = later;
+  return in_a_row_ == kInARow ? std::optional(later) : std::nullopt;
+}
 
 OtherImageCounts::OtherImageCounts(int camera) {
   const std::string name = "camera" + std::to_string(camera);
@@ -60,7 +69,8 @@ ImageQueue::ImageQueue(const Config& config, double max_wait)
       gyro_(sensor_.cameras[0].T_B_C, sensor_.td, sensor_.imu),
       rate_limiter_(config.publish_rate),
       pairs_(StereoPairs(sensor_)),
-      others_(sensor_.cameras.size() - 1),
+      others_(sensor_.cameras.size() - 1, OtherCamera(sensor_.stamp_tolerance)),
+      depth_(sensor_.stamp_tolerance),
       order_(kImageJumps) {
   for (size_t i = 0; i < others_.size(); ++i) {
     counts_.others.emplace_back(static_cast<int>(i) + 1);
@@ -127,15 +137,38 @@ void ImageQueue::TakeOthers(ReadyImage* ready) {
     const int camera = static_cast<int>(i) + 1;
     auto image = others_[i].waiting.Take(t_ns);
     if (!image) {
-      counts_.others[i].missing.Add(Nearest(t_ns, others_[i].waiting.last_ns()));
+      AddMissing(t_ns, camera);
     } else if (ready->publish || IsTracked(camera, pairs_)) {
       ready->images[camera] = std::move(*image);
       DropRepeated(camera, &ready->images);
     }
   }
   auto depth = depth_.Take(t_ns);
-  if (sensor_.depth && !depth) counts_.without_depth.Add(Nearest(t_ns, depth_.last_ns()));
+  if (sensor_.depth && !depth) {
+    const bool all_unusable = !depth_.last_ns() && counts_.depth_unusable.count > 0;
+    counts_.without_depth.Add(all_unusable ? counts_.depth_unusable.detail
+                                           : Nearest(t_ns, depth_.last_ns()));
+  }
   if (depth) ready->depth = std::move(*depth);
+}
+
+// Names the cause: images of another size, or timestamps that are a constant time apart.
+void ImageQueue::AddMissing(int64_t t_ns, int camera) {
+  OtherImageCounts& counts = counts_.others[camera - 1];
+  OtherCamera& other = others_[camera - 1];
+  const auto& last_ns = other.waiting.last_ns();
+  counts.missing.Add(last_ns || counts.unusable.count == 0 ? Nearest(t_ns, last_ns)
+                                                           : counts.unusable.detail);
+  if (!last_ns) return;
+  const auto later = other.offset.Add(ToSeconds(*last_ns - t_ns));
+  if (!later) return;
+  const double least = 1e-3 * std::ceil(1e3 * std::abs(*later) + 0.5);
+  counts.missing.detail =
+      Format("its timestamps are a constant %.1f", 1e3 * std::abs(*later)) +
+      (*later < 0 ? " ms earlier than those of camera 0; " : " ms later than those of camera 0; ") +
+      (least <= kMostTolerance
+           ? Format("if one clock stamps both, set stamp_tolerance: %.3f", least)
+           : std::string("are the cameras triggered in turn? They must be triggered together"));
 }
 
 // Observations in repeated images contradict the motion of camera 0.

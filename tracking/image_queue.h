@@ -32,6 +32,18 @@ struct ReadyImage {
   bool publish = true;   // false: not for the estimator, by the rate `freq`
 };
 
+// Tells whether timestamps differ from those of camera 0 by the same time again and again.
+class ConstantOffset {
+ public:
+  // Adds a difference [s]. Returns it if it has been the same, within 0.2 ms, twenty times in a
+  // row; only once.
+  std::optional<double> Add(double later);
+
+ private:
+  double last_ = 0;
+  int in_a_row_ = 0;
+};
+
 // Faults of the images of a camera other than 0.
 struct OtherImageCounts {
   explicit OtherImageCounts(int camera);
@@ -59,10 +71,10 @@ DropCounts ToDropCounts(const ImageCounts& counts);
 
 // Input queue of a tracker: checks images and holds each image of camera 0 back briefly until the
 // gyroscope samples reach it. The images of other cameras and of depth are paired with those of
-// camera 0 whose timestamps agree within 2 ms; one that is late or missing delays others at most
-// briefly. The result depends on the input only: queues of different trackers select the same
-// images, so that their features have equal timestamps. Synchronous; add in order of arrival and
-// pop until nullopt, as with MeasurementSync.
+// camera 0 whose timestamps agree within stamp_tolerance; one that is late or missing delays others
+// at most briefly. The result depends on the input only: queues of different trackers select the
+// same images, so that their features have equal timestamps. Synchronous; add in order of arrival
+// and pop until nullopt, as with MeasurementSync.
 class ImageQueue {
  public:
   // While newer images wait, an image that the gyroscope leads by more than `max_wait` [s], or the
@@ -98,7 +110,10 @@ class ImageQueue {
 
   // A camera other than 0.
   struct OtherCamera {
+    explicit OtherCamera(double tolerance) : waiting(tolerance) {}
+
     PairingQueue<ImageSample> waiting;
+    ConstantOffset offset;            // of its timestamps, where they do not match
     ImageSample last, last_of_first;  // the last pair that was searched, with camera 0
   };
 
@@ -108,6 +123,7 @@ class ImageQueue {
   bool IsComplete(int64_t t_ns) const;
   void DropTooLate();
   void TakeOthers(ReadyImage* ready);
+  void AddMissing(int64_t t_ns, int camera);
   void DropRepeated(int camera, std::vector<ImageSample>* images);
 
   SensorConfig sensor_;

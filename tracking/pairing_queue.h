@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/measurements.h"
 #include "common/streams/stamp_order.h"
 
 namespace plm_vins {
@@ -15,7 +16,8 @@ namespace plm_vins {
 template <typename Sample>
 class PairingQueue {
  public:
-  static constexpr int64_t kTolerance_ns = 2'000'000;  // closer timestamps are equal
+  // Timestamps that differ by at most `tolerance` [s] are equal.
+  explicit PairingQueue(double tolerance = 0.002) : tolerance_ns_(ToNanoseconds(tolerance)) {}
 
   // Must be called in order of arrival. Drops a sample that goes back in time, unless enough
   // samples follow it there: then a new recording begins.
@@ -38,13 +40,13 @@ class PairingQueue {
   bool IsAwaited(int64_t t_ns) const {
     if (!last_ns()) return false;
     const int64_t ahead_ns = t_ns - *last_ns();
-    return ahead_ns > kTolerance_ns && ahead_ns < kSilence_ns && 4 * ahead_ns >= 3 * interval_ns_;
+    return ahead_ns > tolerance_ns_ && ahead_ns < kSilence_ns && 4 * ahead_ns >= 3 * interval_ns_;
   }
 
   // Returns the sample for an image with this timestamp, if there is one. Drops older samples.
   std::optional<Sample> Take(int64_t t_ns) {
-    while (!samples_.empty() && samples_.front().t_ns < t_ns - kTolerance_ns) samples_.pop_front();
-    if (samples_.empty() || samples_.front().t_ns > t_ns + kTolerance_ns) return std::nullopt;
+    while (!samples_.empty() && samples_.front().t_ns < t_ns - tolerance_ns_) samples_.pop_front();
+    if (samples_.empty() || samples_.front().t_ns > t_ns + tolerance_ns_) return std::nullopt;
     std::optional<Sample> taken(std::move(samples_.front()));
     samples_.pop_front();
     return taken;
@@ -57,6 +59,7 @@ class PairingQueue {
   static constexpr int64_t kMaxAge_ns = 1'000'000'000;  // exceeds the time that any image waits
   static constexpr int64_t kSilence_ns = 500'000'000;
 
+  int64_t tolerance_ns_;
   std::deque<Sample> samples_;
   StampOrder order_{kImageJumps};
   int64_t interval_ns_ = 0;  // interval between the last two samples

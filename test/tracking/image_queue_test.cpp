@@ -269,6 +269,36 @@ TEST_F(OtherImages, ArePairedByStamp) {
   EXPECT_EQ(queue_.counts().without_depth.count, 1);
 }
 
+// The cameras are stamped 2.1 ms apart.
+TEST_F(OtherImages, AConstantOffsetOfStampsIsNamedAndMayBeAllowed) {
+  for (const double tolerance : {0.002, 0.003}) {
+    Config config = TwoCameras();
+    config.sensor.stamp_tolerance = tolerance;
+    ImageQueue queue(config);
+    int paired = 0;
+    for (int t = 0; t < 1500; t += 50) {
+      queue.AddImage(0, {At(t), picture_});
+      queue.AddImage(1, {At(t) + 2'100'000, picture_});
+      const auto ready = queue.Flush();
+      ASSERT_TRUE(ready);
+      paired += !ready->images[1].gray.empty();
+    }
+    EXPECT_EQ(paired, tolerance < 0.0021 ? 0 : 30);
+    const std::string detail = queue.counts().others.at(0).missing.detail;
+    EXPECT_EQ(detail.find("a constant 2.1 ms later") != std::string::npos, paired == 0) << detail;
+    EXPECT_EQ(detail.find("stamp_tolerance: 0.003") != std::string::npos, paired == 0) << detail;
+  }
+}
+
+TEST_F(OtherImages, OfAnotherSizeAreTheCauseOfMissingOnes) {
+  queue_.AddImage(1, {At(0), picture_.rowRange(0, 100)});
+  queue_.AddDepth({At(0), depth_.colRange(0, 100)});
+  queue_.AddImage(0, {At(0), picture_});
+  ASSERT_TRUE(queue_.Flush());
+  EXPECT_NE(queue_.counts().others.at(0).missing.detail.find("320 x 100 px"), std::string::npos);
+  EXPECT_NE(queue_.counts().without_depth.detail.find("100 x 240 px"), std::string::npos);
+}
+
 TEST_F(OtherImages, NeedNoPixelsWhereTheyAreNotSearched) {
   queue_.AddImage(1, {At(0), cv::Mat()});
   queue_.AddImage(0, {At(0), picture_});

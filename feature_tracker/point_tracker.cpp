@@ -9,7 +9,7 @@
 #include "common/features/feature_checks.h"
 #include "common/format.h"
 #include "feature_tracker/contrast_equalizer.h"
-#include "feature_tracker/depth_sampling.h"
+#include "feature_tracker/depth_reader.h"
 #include "feature_tracker/detection/corner_detector.h"
 #include "feature_tracker/detection/ray_mask.h"
 #include "feature_tracker/detection/spacing_grid.h"
@@ -111,14 +111,17 @@ class PointTracker::Implementation {
   }
 
   const PointTrackerStatistics& statistics() const { return statistics_; }
-  std::string PairFinding() const { return stereo_ ? stereo_->Finding() : ""; }
+  std::string PairFinding() const {
+    const std::string depth = depth_reader_.Finding();
+    return depth.empty() && stereo_ ? stereo_->Finding() : depth;
+  }
   double StillShare() const { return still_parts_.largest_share(); }
   cv::Mat DrawTracks() const { return DrawPointTracks(sample_.gray, tracks_); }
 
  private:
   void LookAtOthers(const cv::Mat& gray, const OtherViews& others) {
     if (stereo_) stereo_->Match(gray, others.second, &tracks_);
-    for (PointTrack& track : tracks_) track.depth = DepthAt(others.depth, track.uv_px);
+    depth_reader_.Read(others.depth, others.depth_unit, &tracks_);
   }
 
   const cv::Mat& Equalize(const cv::Mat& gray) {
@@ -328,6 +331,7 @@ class PointTracker::Implementation {
   OpticalFlow flow_;
   ContrastEqualizer equalizer_;
   std::optional<StereoMatcher> stereo_;
+  DepthReader depth_reader_;
   StillParts still_parts_;
 
   // State at the newest image.

@@ -53,7 +53,8 @@ class PointTracker {
 
   const PointTrackerStatistics& statistics() const;
 
-  // Describes what seems to be wrong with the pair, and what to do; empty if nothing is.
+  // Describes what seems to be wrong with the pair, or with depth images, and what to do; empty if
+  // nothing is.
   std::string PairFinding() const;
 
   // Describes parts of the image that stand still while the camera moves; empty if there are none.

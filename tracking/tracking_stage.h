@@ -45,7 +45,7 @@ class TrackingStage {
   // configuration.
   explicit TrackingStage(const Config& config,
                          double max_wait = std::numeric_limits<double>::infinity())
-      : queue_(config, max_wait) {
+      : queue_(config, max_wait), depth_unit_(config.sensor.depth.value_or(DepthSensor()).unit) {
     const std::vector<StereoPair> pairs = StereoPairs(config.sensor);
     for (int camera = 0; camera < static_cast<int>(config.sensor.cameras.size()); ++camera) {
       if (IsTracked(camera, pairs)) cameras_.push_back(MakeCamera(config, camera, pairs));
@@ -160,6 +160,7 @@ class TrackingStage {
       OtherViews others;
       if (camera->second) others.second = next.images[*camera->second].gray;
       if (camera->number == 0) others.depth = next.depth.depth;
+      others.depth_unit = depth_unit_;
       features = camera->tracker->Track(image, R_now_then, others);
       R_now_then = Eigen::Quaterniond::Identity();
     }
@@ -178,6 +179,7 @@ class TrackingStage {
   static std::vector<LineObservation>& ObservationsOf(LineFrame* frame) { return frame->lines; }
 
   ImageQueue queue_;
+  double depth_unit_;  // see OtherViews
   std::vector<TrackedCamera> cameras_;
 };
 

@@ -7,7 +7,6 @@ namespace plm_vins::simulator {
 
 cv::Mat1w MeasureDepth(const cv::Mat1f& depth, const DepthSensor& sensor, uint64_t seed,
                        uint64_t index) {
-  constexpr double kMillimeters = 1000;  // per meter
   cv::Mat1w measured(depth.size(), ushort{0});
   for (int y = 0; y < depth.rows; ++y) {
     Random random(seed, index * depth.rows + y);
@@ -15,7 +14,7 @@ cv::Mat1w MeasureDepth(const cv::Mat1f& depth, const DepthSensor& sensor, uint64
       const double z = depth(y, x);
       const double noise = sensor.noise * z * z * random.Normal();
       if (z > sensor.max) continue;
-      measured(y, x) = cv::saturate_cast<ushort>(kMillimeters * (z + noise));
+      measured(y, x) = cv::saturate_cast<ushort>((z + noise) / sensor.unit);
     }
   }
   return measured;

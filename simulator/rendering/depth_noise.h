@@ -8,7 +8,7 @@
 
 namespace plm_vins::simulator {
 
-// Adds the sensor's noise to exact depths [m] and rounds them to millimeters. Depths that are
+// Adds the sensor's noise to exact depths [m] and rounds them to its unit. Depths that are
 // unknown (0) or beyond the sensor's largest become 0. `index` of the image seeds the noise.
 cv::Mat1w MeasureDepth(const cv::Mat1f& depth, const DepthSensor& sensor, uint64_t seed,
                        uint64_t index);

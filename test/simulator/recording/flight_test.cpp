@@ -162,7 +162,7 @@ TEST(Flight, SecondCameraAndDepthAgreeOnWherePointsAre) {
   second.parameters.cx += 4;
   const Rigid3d T_C0_C1(SO3Exp({0.01, 0.02, -0.03}), {0.11, 0.01, -0.02});
   second.T_B_C = options.sensors.cameras[0].T_B_C * T_C0_C1;
-  options.sensors.depth = DepthSensor{"/depth", 0, 20};
+  options.sensors.depth = DepthSensor{"/depth", 0, 0.001, 20};
   const MemoryRecorder recording = Record(options);
   ASSERT_EQ(recording.second.size(), recording.images.size());
   ASSERT_EQ(recording.depths.size(), recording.images.size());

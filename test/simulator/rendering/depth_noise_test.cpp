@@ -7,7 +7,7 @@ namespace plm_vins::simulator {
 namespace {
 
 constexpr uint64_t kSeed = 3, kIndex = 5;
-const DepthSensor kSensor = {"/depth", 0.002, 6};
+const DepthSensor kSensor = {"/depth", 0.002, 0.001, 6};
 
 TEST(DepthNoise, GrowsWithTheSquareOfTheDepth) {
   for (const float depth : {1.0f, 2.0f, 5.0f}) {

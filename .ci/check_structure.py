@@ -71,6 +71,7 @@ ESTIMATOR_LAYERS = {
     "rotation_calibration": "imu structure_from_motion",
     "initialization": "state geometry imu factors equations solver uncertainty "
                       "structure_from_motion rotation_calibration",
+    "lengths": "state imu structure_from_motion initialization",
     "output": "state",
 }
 POSE_GRAPH_LAYERS = {

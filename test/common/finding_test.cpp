@@ -28,6 +28,14 @@ TEST(FindingMemory, SaysUntilWhenAFindingLasted) {
   EXPECT_EQ(memory.finding().text, "another");
 }
 
+TEST(FindingMemory, WhatHasPassedCountsLess) {
+  FindingMemory memory;
+  memory.Set(kMidnight, "a fault", 10);
+  EXPECT_EQ(memory.finding().sigmas, 10);
+  for (int i = 0; i < 2; ++i) memory.Set(kMidnight + i * kSecond, "");
+  EXPECT_EQ(memory.finding().sigmas, 3);
+}
+
 TEST(RecentTime, DecaysHalfAsFastAsItGrows) {
   RecentTime time;
   for (int i = 0; i < 19; ++i) time.Add(0.1, true);

@@ -145,16 +145,7 @@ bool Attempt::ReconstructInStereo() {
                                        kMinStereoAngle_px / focal_length_};
   const auto stereo = ReconstructFromStereo(tracks_, R_G_B_, options, reason_);
   if (!stereo) return false;
-  std::vector<RotationMeasurement> rotations;
-  for (size_t i = 0; i < preintegrations_.size(); ++i) {
-    // Two errors of about equal size have half the information of one.
-    const Eigen::Matrix3d information =
-        0.25 * (stereo->rotation_information[i] + stereo->rotation_information[i + 1]);
-    const Eigen::Quaterniond R_B0_B1 =
-        stereo->T_G_B[i].rotation.conjugate() * stereo->T_G_B[i + 1].rotation;
-    rotations.push_back({&preintegrations_[i], R_B0_B1, information});
-  }
-  if (!SetGyroBias(rotations)) return false;
+  if (!SetGyroBias(RotationsBetween(*stereo, preintegrations_))) return false;
   ChainRotations();
   AdoptStereo(*stereo);
   return true;

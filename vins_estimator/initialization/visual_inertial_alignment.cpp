@@ -147,6 +147,20 @@ std::optional<Eigen::Vector3d> EstimateGyroBias(
   return gyro_bias;
 }
 
+std::vector<RotationMeasurement> RotationsBetween(const StereoStructure& structure,
+                                                  const std::vector<Preintegration>& intervals) {
+  std::vector<RotationMeasurement> rotations;
+  for (size_t i = 0; i < intervals.size(); ++i) {
+    // Two errors of about equal size have half the information of one.
+    const Eigen::Matrix3d information =
+        0.25 * (structure.rotation_information[i] + structure.rotation_information[i + 1]);
+    const Eigen::Quaterniond R_B0_B1 =
+        structure.T_G_B[i].rotation.conjugate() * structure.T_G_B[i + 1].rotation;
+    rotations.push_back({&intervals[i], R_B0_B1, information});
+  }
+  return rotations;
+}
+
 std::optional<Alignment> AlignVisualInertial(
     const std::vector<AlignmentView>& views,
     const std::vector<const Preintegration*>& preintegrations, const AlignmentOptions& options,

@@ -10,6 +10,7 @@
 
 #include "common/geometry/rigid3.h"
 #include "vins_estimator/imu/preintegration.h"
+#include "vins_estimator/structure_from_motion/stereo_structure.h"
 
 namespace plm_vins {
 
@@ -24,6 +25,10 @@ struct RotationMeasurement {
 // [rad/s]; robust. Returns nullopt, with the reason, if the bias is unobservable.
 std::optional<Eigen::Vector3d> EstimateGyroBias(
     const std::vector<RotationMeasurement>& measurements, std::string* reason);
+
+// Returns the rotations between the views of a structure, one for each interval.
+std::vector<RotationMeasurement> RotationsBetween(const StereoStructure& structure,
+                                                  const std::vector<Preintegration>& intervals);
 
 // Pose of an image before the alignment, in a frame G with unknown gravity direction.
 struct AlignmentView {

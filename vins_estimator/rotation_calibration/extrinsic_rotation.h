@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "vins_estimator/structure_from_motion/tracks.h"
+
 namespace plm_vins {
 
 // A rotation of the rig, measured by the gyroscope and by the camera.
@@ -15,6 +17,7 @@ struct RotationPair {
   double duration = 0;   // [s]
   double deviation = 0;  // standard deviation of their difference, per axis [rad]
   Eigen::Vector3d rate_change = Eigen::Vector3d::Zero();  // of the gyroscope, from 0 to 1 [rad/s]
+  std::vector<Correspondence> points = {};                // some that both images observe
 };
 
 struct ExtrinsicRotationOptions {

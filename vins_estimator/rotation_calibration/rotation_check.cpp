@@ -7,6 +7,7 @@
 #include "common/format.h"
 #include "common/geometry/so3.h"
 #include "common/imu/imu_gap.h"
+#include "vins_estimator/rotation_calibration/focal_fit.h"
 #include "vins_estimator/rotation_calibration/rotation_pair.h"
 
 namespace plm_vins {
@@ -17,8 +18,10 @@ using Cause = RotationFit::Cause;
 constexpr double kHistory = 0.5;                       // more than the interval of a pair [s]
 constexpr double kStride = 0.3, kStrideInDoubt = 0.1;  // between pairs [s]
 constexpr size_t kMaxPairs = 200;
-constexpr int64_t kJudgedPairs = 10;          // between judgements
-constexpr double kMaxExtrinsicsError = 0.17;  // [rad]; larger errors are not linear
+constexpr int64_t kJudgedPairs = 10;            // between judgements
+constexpr double kMaxExtrinsicsError = 0.17;    // [rad]; larger errors are not linear
+constexpr double kLeastExtrinsicsError = 0.02;  // [rad]; smaller errors are usual
+constexpr double kSigmas = 3;  // by which the least error that matters exceeds usual ones
 constexpr char kBy[] = ", by the rotations of camera and gyro";
 
 std::string Describe(const RotationFit& fit) {
@@ -42,6 +45,22 @@ std::string Describe(const RotationFit& fit) {
     default:
       return "";
   }
+}
+
+std::string DescribeMounting(const std::optional<MountingError>& error) {
+  if (!error) {
+    return "is it the inverse, or of an image that is turned? estimate_extrinsic: 2 finds the "
+           "right "
+           "one";
+  }
+  if (error->kind == MountingError::Kind::kInverse) {
+    return "its inverse fits; give the camera in the IMU frame (T_imu_cam), not the IMU in the "
+           "camera frame (T_cam_imu)";
+  }
+  return Format(
+      "the image is turned by %.0f deg about the optical axis%s; turn it in the driver, or "
+      "find the right rotation with estimate_extrinsic: 2",
+      ToDegrees(error->angle), error->angle > 3 ? ", as by a camera upside down" : "");
 }
 
 }  // namespace
@@ -71,26 +90,45 @@ void RotationCheck::Add(const FrameMeasurement& measurement, bool in_doubt) {
   if (++measured_ % kJudgedPairs == 0 && is_known) Judge(sensor_.cameras[camera_].T_B_C.rotation);
 }
 
-void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
+bool RotationCheck::FindGrossError(const Eigen::Quaterniond& R_B_C) {
+  mounting_ = ExplainByMounting(pairs_, R_B_C);
   std::string reason;
   const auto calibrated = CalibrateExtrinsicRotation(pairs_, ExtrinsicRotationOptions(), &reason);
-  const double error = calibrated ? calibrated->angularDistance(R_B_C) : 0;
-  if (error > kMaxExtrinsicsError) {
-    agrees_ = false;
-    finding_ = Format(
-        "extrinsicRotation is wrong by %.0f deg%s: is it the inverse, or of an image that is "
-        "turned? estimate_extrinsic: 2 finds the right one",
-        ToDegrees(error), kBy);
-    return;
-  }
+  const double error = calibrated  ? calibrated->angularDistance(R_B_C)
+                       : mounting_ ? std::abs(mounting_->angle)
+                                   : 0;
+  if (error < kMaxExtrinsicsError) return false;
+  const std::string key = camera_ == 0 ? "extrinsicRotation" : TransformKey(camera_);
+  finding_ = {Format("%s is wrong by %.0f deg%s: ", key.c_str(), ToDegrees(error), kBy) +
+                  DescribeMounting(mounting_),
+              kSigmas * error / kLeastExtrinsicsError};
+  mounting_was_wrong_ = true;
+  return true;
+}
+
+RotationFit RotationCheck::Explain(const Eigen::Quaterniond& R_B_C) const {
   const RotationFit fit = ExplainRotations(pairs_, R_B_C);
+  if (fit.cause == Cause::kNone) return fit;
+  const auto focal_error = ErrorOfFocalLength(pairs_, R_B_C, noise_);
+  return focal_error ? RotationFit{Cause::kFocalLength, *focal_error} : fit;
+}
+
+void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
+  agrees_ = false;
+  if (FindGrossError(R_B_C)) return;
+  const RotationFit fit = Explain(R_B_C);
   agrees_ = fit.cause == Cause::kNone;
-  finding_ = IsRefined(fit) ? "" : Describe(fit);
+  // A gross error lasts while the rotations tell too little.
+  if (fit.cause == Cause::kUnknown && mounting_was_wrong_) return;
+  mounting_was_wrong_ = false;
+  finding_ = {};
+  if (!IsRefined(fit)) {
+    finding_ = {Describe(fit), kSigmas * std::abs(fit.amount) / LeastAmount(fit.cause)};
+  }
 }
 
 // Returns whether the estimator refines what is wrong.
 bool RotationCheck::IsRefined(const RotationFit& fit) const {
-  constexpr double kSigmas = 3;
   switch (fit.cause) {
     case Cause::kTimeOffset:
       return sensor_.estimate_td;

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "common/config/sensor_config.h"
+#include "common/finding.h"
 #include "common/measurements.h"
+#include "vins_estimator/rotation_calibration/mounting.h"
 #include "vins_estimator/rotation_calibration/rotation_fit.h"
 
 namespace plm_vins {
@@ -26,13 +28,20 @@ class RotationCheck {
 
   // Returns what is wrong, with the key and what to do; empty if nothing is, or if too few
   // rotations were observed.
-  const std::string& finding() const { return finding_; }
+  const std::string& finding() const { return finding_.text; }
+  const RankedFinding& ranked_finding() const { return finding_; }
+
+  // Returns whether the inverse of the configured rotation fits.
+  bool is_inverted() const { return mounting_ && mounting_->kind == MountingError::Kind::kInverse; }
 
   // Returns whether the rotations agree: an error of the calibration is not one of them.
   bool agrees() const { return agrees_; }
 
  private:
   void Judge(const Eigen::Quaterniond& R_B_C);
+  // Returns whether the rotation is grossly wrong.
+  bool FindGrossError(const Eigen::Quaterniond& R_B_C);
+  RotationFit Explain(const Eigen::Quaterniond& R_B_C) const;
   bool IsRefined(const RotationFit& fit) const;
 
   const SensorConfig sensor_;
@@ -42,8 +51,9 @@ class RotationCheck {
   std::vector<RotationPair> pairs_;     // oldest first
   std::optional<int64_t> measured_ns_;  // newest image of the last pair
   int64_t measured_ = 0;                // number of pairs so far
-  std::string finding_;
-  bool agrees_ = false;
+  RankedFinding finding_;
+  std::optional<MountingError> mounting_;
+  bool agrees_ = false, mounting_was_wrong_ = false;
 };
 
 }  // namespace plm_vins

@@ -134,6 +134,8 @@ double Amount(Cause cause, const Eigen::VectorXd& parameters) {
 
 }  // namespace
 
+double LeastAmount(Cause cause) { return Limits(cause).min; }
+
 RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
                              const Eigen::Quaterniond& R_B_C) {
   if (pairs.size() < kMinPairs) return {};

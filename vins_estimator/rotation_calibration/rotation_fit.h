@@ -26,4 +26,7 @@ struct RotationFit {
 RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
                              const Eigen::Quaterniond& R_B_C);
 
+// Returns the smallest amount of an error that matters.
+double LeastAmount(RotationFit::Cause cause);
+
 }  // namespace plm_vins

@@ -17,6 +17,7 @@ constexpr double kPairDuration = 0.3;  // between the two images of a pair [s]
 constexpr double kMinTurn = 0.02;  // with less rotation, a pair has no information on axes [rad]
 // Uncertainty of a pair in addition to its covariance, which wrong tracks make too small [rad].
 constexpr double kExcessDeviation = 0.003;
+constexpr size_t kMaxPoints = 40;   // stored with a pair
 constexpr size_t kRateSamples = 5;  // from whose mean a rate is known in spite of vibration
 
 // Returns the rotation that aligns the rays of the first image best with those of the second, as if
@@ -74,6 +75,9 @@ std::optional<RotationPair> MeasureRotationPair(const std::deque<FrameMeasuremen
   pair.duration = imu.duration();
   pair.deviation = std::sqrt(variance + kExcessDeviation * kExcessDeviation);
   pair.rate_change = RateChange(ends[1].imu);
+  for (size_t i = 0; i < correspondences.size(); i += 1 + correspondences.size() / kMaxPoints) {
+    pair.points.push_back(correspondences[i]);
+  }
   return pair;
 }
 

@@ -3,6 +3,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "common/format.h"
 #include "common/geometry/so3.h"
@@ -14,9 +16,51 @@ namespace plm_vins {
 namespace {
 
 constexpr int kMinPoints = 12;  // with depth, in the first view and common to others
-constexpr int kResectionIterations = 10;
-constexpr double kLossScale = 2.0;          // Cauchy loss, in standard deviations
+constexpr int kResectionIterations = 10, kRefiningIterations = 2;
+constexpr double kRatioLosses[] = {16, 8, 4, 2, 2, 2, 2, 2};  // in standard deviations
+constexpr double kLeastRatio = 0.1;       // of measured depths, against those that started
+constexpr double kDepthDeviation = 0.02;  // of a measured depth, relative
+constexpr double kPairRotation = 0.2 * M_PI / 180;  // deviation of the pair's rotation [rad]
+constexpr double kLossScale = 2.0;                  // Cauchy loss, in standard deviations
 constexpr double kMaxInlierResidual = 6.0;  // in standard deviations; depths are noisy as well
+
+// Inverse depth of a point as one view measures it, and by the structure.
+struct DepthPair {
+  double measured, expected;
+  double deviation;   // of the measured one
+  double per_radian;  // change of the measured one if the second camera is turned
+};
+
+// Returns the inverse depth along the ray `xy` at which it comes closest to the ray `xy_S` of a
+// second camera; negative beyond infinity.
+DepthPair DepthByTwoRays(const Eigen::Vector2d& xy, const Eigen::Vector2d& xy_S,
+                         const Rigid3d& T_S_C, double noise) {
+  const Eigen::Vector3d b = xy_S.homogeneous();
+  const Eigen::Vector3d far = b.cross(T_S_C.rotation * xy.homogeneous());
+  const Eigen::Vector3d per_inverse_depth = b.cross(T_S_C.translation);
+  const double norm = per_inverse_depth.norm();
+  const double per_radian = b.squaredNorm() / norm;
+  return {-far.dot(per_inverse_depth) / (norm * norm), 0, M_SQRT2 * noise * per_radian, per_radian};
+}
+
+// Fits measured = ratio * expected + offset, robustly; returns the ratio and its deviation.
+std::pair<double, double> FitRatio(const std::vector<DepthPair>& depths) {
+  Eigen::Vector2d fit(1, 0);
+  Eigen::Matrix2d H = Eigen::Matrix2d::Identity();
+  for (const double loss : kRatioLosses) {
+    H = Eigen::Vector2d(1e-6, 1 / (kPairRotation * kPairRotation)).asDiagonal();
+    Eigen::Vector2d g = Eigen::Vector2d::Zero();
+    for (const DepthPair& depth : depths) {
+      const Eigen::Vector2d J = Eigen::Vector2d(depth.expected, depth.per_radian) / depth.deviation;
+      const double error = depth.measured / depth.deviation - J.dot(fit);
+      const double weight = 1 / (1 + error * error / (loss * loss));
+      H += weight * J * J.transpose();
+      g += weight * J * depth.measured / depth.deviation;
+    }
+    fit = H.ldlt().solve(g);
+  }
+  return {fit[0], std::sqrt(H.inverse()(0, 0))};
+}
 
 class Builder {
  public:
@@ -25,10 +69,12 @@ class Builder {
       : tracks_(tracks), R_G_B_(R_G_B), options_(options) {
     structure_.T_G_B.resize(R_G_B.size());
     structure_.rotation_information.assign(R_G_B.size(), Eigen::Matrix3d::Zero());
+    structure_.position_information = structure_.rotation_information;
     structure_.p_G.resize(tracks.size());
   }
 
   std::optional<StereoStructure> Build(std::string* reason);
+  bool Refine(std::string* reason);
 
  private:
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -41,6 +87,9 @@ class Builder {
     int inliers = 0;
   };
 
+  bool IsUsed(const Track& track, const Track::Observation& observation) const {
+    return !by_motion_ || observation.camera == track.observations.front().camera;
+  }
   int ViewWithMostDepths() const;
   std::optional<Eigen::Vector3d> PointOf(const Track& track, int view) const;
   int TriangulateIn(int view);
@@ -48,10 +97,14 @@ class Builder {
                 Resection* equations) const;
   Resection Linearize(int view) const;
   bool Resect(int view, int neighbor, std::string* reason);
+  bool ResectFromHere(int view, std::string* reason);
+  void TriangulateInAll();
+  std::vector<DepthPair> DepthsInSingleViews() const;
 
   const std::vector<Track>& tracks_;
   const std::vector<Eigen::Quaterniond>& R_G_B_;
   const StereoStructureOptions options_;
+  bool by_motion_ = false;  // refining, without second cameras, which may be turned
   StereoStructure structure_;
 };
 
@@ -121,19 +174,24 @@ Builder::Resection Builder::Linearize(int view) const {
   for (size_t i = 0; i < tracks_.size(); ++i) {
     if (!structure_.p_G[i]) continue;
     for (const Track::Observation& o : tracks_[i].observations) {
-      if (o.view == view) AddPoint(*structure_.p_G[i], o, &equations);
+      if (o.view == view && IsUsed(tracks_[i], o)) AddPoint(*structure_.p_G[i], o, &equations);
     }
   }
   return equations;
 }
 
 bool Builder::Resect(int view, int neighbor, std::string* reason) {
-  Rigid3d& T_G_B = structure_.T_G_B[view];
   const Rigid3d& T_G_neighbor = structure_.T_G_B[neighbor];
-  T_G_B = {T_G_neighbor.rotation * R_G_B_[neighbor].conjugate() * R_G_B_[view],
-           T_G_neighbor.translation};
+  structure_.T_G_B[view] = {T_G_neighbor.rotation * R_G_B_[neighbor].conjugate() * R_G_B_[view],
+                            T_G_neighbor.translation};
+  return ResectFromHere(view, reason);
+}
+
+bool Builder::ResectFromHere(int view, std::string* reason) {
+  Rigid3d& T_G_B = structure_.T_G_B[view];
   Resection equations;
-  for (int i = 0; i < kResectionIterations; ++i) {
+  const int iterations = by_motion_ ? kRefiningIterations : kResectionIterations;
+  for (int i = 0; i < iterations; ++i) {
     equations = Linearize(view);
     const Vector6d step = -SolveSymmetric(equations.H, equations.g);
     if (!step.allFinite()) break;
@@ -145,10 +203,11 @@ bool Builder::Resect(int view, int neighbor, std::string* reason) {
         Format("too few points with a depth fit a motion: %d of %d", equations.inliers, kMinPoints);
     return false;
   }
+  const Eigen::Matrix3d H_t = equations.H.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d H_r = equations.H.bottomRightCorner<3, 3>();
   const Eigen::Matrix3d H_tr = equations.H.topRightCorner<3, 3>();
-  structure_.rotation_information[view] =
-      equations.H.bottomRightCorner<3, 3>() -
-      H_tr.transpose() * equations.H.topLeftCorner<3, 3>().ldlt().solve(H_tr);
+  structure_.rotation_information[view] = H_r - H_tr.transpose() * H_t.ldlt().solve(H_tr);
+  structure_.position_information[view] = H_t - H_tr * H_r.ldlt().solve(H_tr.transpose());
   return true;
 }
 
@@ -168,10 +227,77 @@ std::optional<StereoStructure> Builder::Build(std::string* reason) {
     if (!Resect(view, view + 1, reason)) return std::nullopt;
     TriangulateIn(view);
   }
+  if (options_.refinements > 0 && !Refine(reason)) return std::nullopt;
   return structure_;
 }
 
 }  // namespace
+
+void Builder::TriangulateInAll() {
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    if (!structure_.p_G[i]) continue;
+    std::vector<PosedPointObservation> observations;
+    for (const Track::Observation& o : tracks_[i].observations) {
+      if (!IsUsed(tracks_[i], o)) continue;
+      observations.push_back({structure_.T_G_B[o.view] * options_.T_B_C[o.camera], o.xy});
+    }
+    if (const auto p_G = TriangulatePoint(observations, options_.min_angle))
+      structure_.p_G[i] = p_G;
+  }
+}
+
+std::vector<DepthPair> Builder::DepthsInSingleViews() const {
+  std::vector<DepthPair> depths;
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    if (!structure_.p_G[i]) continue;
+    for (const Track::Observation& o : tracks_[i].observations) {
+      const Track::Observation* first = tracks_[i].In(o.view);
+      if (&o == first && !o.depth) continue;
+      const Rigid3d T_G_C = structure_.T_G_B[o.view] * options_.T_B_C[first->camera];
+      const double z = (T_G_C.Inverse() * *structure_.p_G[i]).z();
+      if (!(z > kMinTriangulatedDepth)) continue;
+      DepthPair depth{o.depth ? 1 / *o.depth : 0, 0, 0, 0};
+      if (!o.depth) {
+        depth = DepthByTwoRays(first->xy, o.xy,
+                               options_.T_B_C[o.camera].Inverse() * options_.T_B_C[first->camera],
+                               options_.noise);
+      }
+      depth.expected = 1 / z;
+      if (o.depth) depth.deviation = kDepthDeviation * depth.expected;
+      depths.push_back(depth);
+    }
+  }
+  return depths;
+}
+
+bool Builder::Refine(std::string* reason) {
+  const int count = static_cast<int>(R_G_B_.size());
+  by_motion_ = true;
+  for (int k = 0; k < options_.refinements; ++k) {
+    TriangulateInAll();
+    for (int view = 0; view < count; ++view) {
+      if (structure_.position_information[view].isZero()) continue;  // the origin
+      if (!ResectFromHere(view, reason)) return false;
+    }
+  }
+  const auto [ratio, deviation] = FitRatio(DepthsInSingleViews());
+  if (!(ratio > kLeastRatio)) {
+    *reason = "measured depths are unrelated to those by motion";
+    return false;
+  }
+  structure_.scale_deviation = deviation / ratio;
+  for (Rigid3d& T_G_B : structure_.T_G_B) {  // the cameras' centers scale, not the lever arms
+    const Eigen::Vector3d lever_G = T_G_B.rotation * options_.T_B_C[0].translation;
+    T_G_B.translation = (T_G_B.translation + lever_G) / ratio - lever_G;
+  }
+  for (auto& p_G : structure_.p_G) {
+    if (p_G) *p_G /= ratio;
+  }
+  for (Eigen::Matrix3d& information : structure_.position_information) {
+    information *= ratio * ratio;
+  }
+  return true;
+}
 
 std::optional<StereoStructure> ReconstructFromStereo(const std::vector<Track>& tracks,
                                                      const std::vector<Eigen::Quaterniond>& R_G_B,

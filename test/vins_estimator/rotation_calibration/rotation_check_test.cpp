@@ -58,6 +58,33 @@ TEST(RotationCheck, NamesAWrongFocalLength) {
   EXPECT_EQ(Check(flight).rfind("the focal length is wrong by about +", 0), 0u) << Check(flight);
 }
 
+// In translation, too, which a relative pose would trade for the error.
+TEST(RotationCheck, NamesTheFocalLengthOfAnotherResolution) {
+  for (const double factor : {1.25, 0.8}) {
+    SimulatedFlight flight = Fly(2, simulator::Motion::kFast);
+    for (FrameMeasurement& frame : flight.frames) {
+      for (PointObservation& point : frame.points.points) point.xy /= factor;
+    }
+    const std::string finding = Check(flight);
+    ASSERT_THAT(finding, StartsWith("the focal length is wrong by about "));
+    EXPECT_NEAR(std::stod(finding.substr(35)), 100 * (factor - 1), 4) << finding;
+  }
+}
+
+TEST(RotationCheck, NamesTheInverse) {
+  SimulatedFlight flight = Fly(3);
+  Eigen::Quaterniond& R_B_C = flight.sensor.cameras[0].T_B_C.rotation;
+  R_B_C = Eigen::Quaterniond(R_B_C.conjugate());
+  EXPECT_NE(Check(flight).find("its inverse fits"), std::string::npos) << Check(flight);
+}
+
+TEST(RotationCheck, NamesACameraUpsideDown) {
+  SimulatedFlight flight = Fly(3);
+  Eigen::Quaterniond& R_B_C = flight.sensor.cameras[0].T_B_C.rotation;
+  R_B_C = R_B_C * SO3Exp(Eigen::Vector3d(0, 0, M_PI));
+  EXPECT_NE(Check(flight).find("turned by 180 deg"), std::string::npos) << Check(flight);
+}
+
 TEST(RotationCheck, NamesAGyroWithWrongScales) {
   SimulatedFlight flight = Fly(2, simulator::Motion::kFast);
   for (FrameMeasurement& frame : flight.frames) {

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/lengths/stated_lengths.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "test/vins_estimator/estimated_flight.h"
+
+namespace plm_vins {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(StatedLengths, KnowTheUnitsOfDepthImages) {
+  EXPECT_THAT(ProbableDepthUnit(10, 0.01, 0.001), HasSubstr("0.1 mm? depth_unit: 0.0001"));
+  EXPECT_THAT(ProbableDepthUnit(5.1, 0.01, 0.001), HasSubstr("1/5000 m? depth_unit: 0.0002"));
+  EXPECT_THAT(ProbableDepthUnit(4, 0.01, 0.001), HasSubstr("depth_unit: 0.00025"));
+  EXPECT_THAT(ProbableDepthUnit(1000, 0.01, 0.001), HasSubstr("32FC1 images in mm"));
+  EXPECT_THAT(ProbableDepthUnit(3.28, 0.01, 0.001), HasSubstr("feet"));
+  EXPECT_THAT(ProbableDepthUnit(0.1, 0.01, 0.0001), HasSubstr("mm? depth_unit: 0.001"));
+  EXPECT_EQ(ProbableDepthUnit(1.1, 0.01, 0.001), "");
+}
+
+testing::SimulatedFlight FlyWithDepth(double factor) {
+  auto options = testing::FlightOptions(simulator::Motion::kFast, 1);
+  options.sensors.depth.emplace();
+  auto flight = testing::SimulateFlight(options);
+  for (FrameMeasurement& frame : flight.frames) {
+    for (PointObservation& point : frame.points.points) {
+      if (point.depth) *point.depth *= factor;
+    }
+  }
+  return flight;
+}
+
+bool HasDepth(const FrameMeasurement& measurement) {
+  const auto& points = measurement.points.points;
+  return std::any_of(points.begin(), points.end(),
+                     [](const PointObservation& point) { return point.depth.has_value(); });
+}
+
+TEST(StatedLengths, LeaveOutDepthsOfAnotherUnit) {
+  const auto flight = FlyWithDepth(0.5);
+  const Config config = testing::ConfigFor(flight);
+  StatedLengths lengths(config);
+  bool is_wrong = false;
+  size_t images = 0;
+  while (!is_wrong) {
+    ASSERT_LT(images, flight.frames.size());
+    EXPECT_TRUE(HasDepth(lengths.Usable(flight.frames[images])));
+    is_wrong = lengths.Add(flight.frames[images++]);
+  }
+  EXPECT_EQ(lengths.images().size(), images - 1) << "all before, from which to repeat";
+  EXPECT_FALSE(HasDepth(lengths.Usable(flight.frames[images])));
+  EXPECT_FALSE(lengths.Usable(config).sensor.depth);
+  EXPECT_THAT(lengths.Finding(), HasSubstr("depths are "));
+  EXPECT_THAT(lengths.Finding(), HasSubstr(" times too short"));
+  EXPECT_GT(lengths.Contradiction(), 5);
+}
+
+TEST(StatedLengths, LeaveOutDepthsBeyondTheLargest) {
+  auto flight = FlyWithDepth(1);
+  flight.sensor.depth->max = 2;
+  StatedLengths lengths(testing::ConfigFor(flight));
+  for (const PointObservation& point : lengths.Usable(flight.frames[0]).points.points) {
+    EXPECT_LE(point.depth.value_or(0), 2);
+  }
+}
+
+}  // namespace
+}  // namespace plm_vins

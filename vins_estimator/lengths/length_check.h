@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "common/config/sensor_config.h"
+#include "common/config/stereo_pairs.h"
+#include "common/measurements.h"
+#include "vins_estimator/lengths/ratio_curve.h"
+
+namespace plm_vins {
+
+// Compares a length that the configuration states, the baseline of two cameras or the unit of
+// measured depths, with the IMU, which needs no estimate: stereo odometry over pieces of three
+// seconds gives the camera's path in stated lengths, and the IMU tells how long it is. The length
+// is wrong if that rules it out by five standard deviations, and by more than 5 %, which no
+// calibration is off. Once the ratio is known well,
+// nothing is computed any more.
+class LengthCheck {
+ public:
+  // Without a pair, measured depths are checked. `point_noise_px` is the standard deviation of a
+  // corner.
+  LengthCheck(const SensorConfig& sensor, double point_noise_px, std::optional<StereoPair> pair);
+
+  // Adds the next image.
+  void Add(const FrameMeasurement& measurement);
+
+  // Drops the images of the current piece, as after a jump of the clock.
+  void Interrupt();
+
+  // Ratio of the stated length to the true one.
+  const RatioEstimate& ratio() const { return ratio_; }
+  // Returns whether the length is wrong. This is final.
+  bool is_wrong() const { return is_wrong_; }
+
+  // Returns whether the length is neither known well nor wrong.
+  bool is_open() const { return !is_known_ && !is_wrong_; }
+
+  const std::optional<StereoPair>& pair() const { return pair_; }
+
+ private:
+  FrameMeasurement OfSource(const FrameMeasurement& measurement) const;
+  bool ShortenRest();
+  std::optional<RatioCurve> CurveOfPiece();
+  void Judge(const RatioCurve& curve);
+
+  const SensorConfig sensor_;
+  const double noise_;  // of a normalized coordinate
+  const std::optional<StereoPair> pair_;
+  std::deque<FrameMeasurement> piece_;
+  std::optional<int64_t> judged_ns_;  // newest image at the last judgement
+  RatioCurve earlier_;                // of all pieces before
+  RatioEstimate ratio_;
+  double scale_deviation_ = 1;  // of the depths in the best piece
+  int contradictions_ = 0;      // consecutive judgements that rule the length out
+  bool is_wrong_ = false, is_known_ = false;
+};
+
+}  // namespace plm_vins

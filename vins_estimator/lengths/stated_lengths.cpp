@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/lengths/stated_lengths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "common/format.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kMemory = 10;  // longest time from the start to repeat [s]
+
+// Units of depth images other than mm in 16UC1 and m in 32FC1.
+struct DepthUnit {
+  double meters;
+  const char* name;
+  bool is_integer;  // of 16UC1
+};
+constexpr DepthUnit kDepthUnits[] = {
+    {1e-3, "1 mm", true},      {1e-4, "0.1 mm", true},      {2e-4, "1/5000 m", true},
+    {2.5e-4, "0.25 mm", true}, {5e-4, "0.5 mm", true},      {1 / 256.0, "1/256 m", true},
+    {1e-2, "cm", true},        {1.25e-4, "1/8000 m", true}, {1e-3, "mm", false},
+    {1e-2, "cm", false},       {0.3048, "feet", false},     {0.0254, "inches", false}};
+
+template <typename Observation>
+void DropCamera(int camera, std::vector<Observation>* observations) {
+  const auto is_of_camera = [camera](const Observation& o) { return o.camera == camera; };
+  observations->erase(std::remove_if(observations->begin(), observations->end(), is_of_camera),
+                      observations->end());
+}
+
+}  // namespace
+
+std::string ProbableDepthUnit(double ratio, double deviation, double depth_unit) {
+  const double tolerance = std::max(0.05, 3 * deviation);
+  std::string text;
+  double best = tolerance;
+  for (const DepthUnit& unit : kDepthUnits) {
+    const double expected = (unit.is_integer ? depth_unit : 1) / unit.meters;
+    const double error = std::abs(std::log(ratio / expected));
+    if (error >= best) continue;
+    best = error;
+    text = unit.is_integer ? Format("unit %s? depth_unit: %.6g", unit.name, unit.meters)
+                           : Format("are these 32FC1 images in %s? They must be in m", unit.name);
+  }
+  return text;
+}
+
+StatedLengths::StatedLengths(const Config& config) : sensor_(config.sensor) {
+  const double noise_px = config.estimator.point_noise;
+  for (const StereoPair& pair : StereoPairs(sensor_)) checks_.emplace_back(sensor_, noise_px, pair);
+  if (sensor_.depth) checks_.emplace_back(sensor_, noise_px, std::nullopt);
+}
+
+void StatedLengths::StartOver() {
+  images_.clear();
+  for (LengthCheck& check : checks_) check.Interrupt();
+}
+
+bool StatedLengths::Add(const FrameMeasurement& measurement) {
+  bool is_news = false, is_open = false;
+  for (LengthCheck& check : checks_) {
+    const bool was_wrong = check.is_wrong();
+    check.Add(measurement);
+    is_news |= check.is_wrong() && !was_wrong;
+    is_open |= check.is_open();
+  }
+  if (is_news) return true;
+  if (!is_open) images_.clear();
+  if (is_open) images_.push_back(measurement);
+  while (!images_.empty() && ToSeconds(measurement.t_ns - images_.front().t_ns) > kMemory) {
+    images_.pop_front();
+  }
+  return false;
+}
+
+bool StatedLengths::IsDropped(int camera) const {
+  return std::any_of(checks_.begin(), checks_.end(), [camera](const LengthCheck& check) {
+    return check.is_wrong() && check.pair() && check.pair()->second == camera;
+  });
+}
+
+FrameMeasurement StatedLengths::Usable(FrameMeasurement measurement) const {
+  for (int camera = 1; camera < static_cast<int>(sensor_.cameras.size()); ++camera) {
+    if (!IsDropped(camera)) continue;
+    DropCamera(camera, &measurement.points.points);
+    if (measurement.lines) DropCamera(camera, &measurement.lines->lines);
+  }
+  if (!sensor_.depth) return measurement;
+  const double max = checks_.back().is_wrong() ? 0 : sensor_.depth->max;
+  for (PointObservation& point : measurement.points.points) {
+    if (point.depth && *point.depth > max) point.depth.reset();
+  }
+  return measurement;
+}
+
+Config StatedLengths::Usable(Config config) const {
+  std::string pairs;
+  for (const LengthCheck& check : checks_) {
+    if (!check.pair() && check.is_wrong()) config.sensor.depth.reset();
+    if (!check.pair() || check.is_wrong()) continue;
+    if (!pairs.empty()) pairs += " ";
+    pairs += Format("%d-%d", check.pair()->first, check.pair()->second);
+  }
+  config.sensor.stereo_pairs = pairs.empty() ? "none" : pairs;
+  return config;
+}
+
+std::string StatedLengths::Describe(const LengthCheck& check) const {
+  const double ratio = std::exp(check.ratio().log_ratio);
+  const bool is_long = ratio > 1;
+  const double times = is_long ? ratio : 1 / ratio;
+  const std::string factor = Format("%.*f", times < 1.995 ? 2 : 1, times) +
+                             (is_long ? " times too long" : " times too short");
+  if (!check.pair()) {
+    const std::string unit = ProbableDepthUnit(ratio, check.ratio().deviation, sensor_.depth->unit);
+    return "depth_topic " + sensor_.depth->topic + ": by motion and IMU, depths are " + factor +
+           (unit.empty() ? "" : " (" + unit + ")") + "; they are not used";
+  }
+  const auto& [first, second] = *check.pair();
+  const double stated =
+      (sensor_.cameras[first].T_B_C.Inverse() * sensor_.cameras[second].T_B_C).translation.norm();
+  return Format(
+             "%s: by motion and IMU, the baseline of cameras %d and %d is %.3g m, so that the "
+             "configured %.3g m are ",
+             TransformKey(second).c_str(), first, second, stated / ratio, stated) +
+         factor + Format("; camera %d is not used", second);
+}
+
+std::string StatedLengths::Finding() const {
+  std::string text;
+  for (const LengthCheck& check : checks_) {
+    if (!check.is_wrong()) continue;
+    if (!text.empty()) text += "; ";
+    text += Describe(check);
+  }
+  return text;
+}
+
+double StatedLengths::Contradiction() const {
+  double worst = 0;
+  for (const LengthCheck& check : checks_) {
+    if (check.is_wrong()) worst = std::max(worst, check.ratio().contradiction);
+  }
+  return worst;
+}
+
+}  // namespace plm_vins

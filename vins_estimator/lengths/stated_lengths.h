@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "common/config/config.h"
+#include "common/measurements.h"
+#include "vins_estimator/lengths/length_check.h"
+
+namespace plm_vins {
+
+// The lengths that a configuration states, baselines and the unit of depths, each with its check,
+// and what of the input and of the configuration may be used. Keeps the last images as long as a
+// length is in question, so that the estimate can be repeated without it.
+class StatedLengths {
+ public:
+  explicit StatedLengths(const Config& config);
+
+  // Adds the next image. Returns whether a length has just been found wrong.
+  bool Add(const FrameMeasurement& measurement);
+
+  // Drops the stored images, as when the clock jumps. What was found stays.
+  void StartOver();
+
+  // Returns the input without wrong lengths: depths, or features of the second camera of a pair.
+  // Depths beyond depth_max are dropped as well.
+  FrameMeasurement Usable(FrameMeasurement measurement) const;
+  Config Usable(Config config) const;
+
+  // The images before the newest one, oldest first.
+  const std::deque<FrameMeasurement>& images() const { return images_; }
+
+  // Describes the wrong lengths, with the keys and what to do; empty if there are none.
+  std::string Finding() const;
+
+  // Returns by how many standard deviations the worst of the wrong lengths is ruled out.
+  double Contradiction() const;
+
+ private:
+  bool IsDropped(int camera) const;
+  std::string Describe(const LengthCheck& check) const;
+
+  const SensorConfig sensor_;
+  std::vector<LengthCheck> checks_;
+  std::deque<FrameMeasurement> images_;
+};
+
+// Returns what the values of depth images probably are if they are `ratio` times too long: a unit,
+// with what to set; empty if no common unit fits within `deviation` of the logarithm.
+std::string ProbableDepthUnit(double ratio, double deviation, double depth_unit);
+
+}  // namespace plm_vins

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "vins_estimator/rotation_calibration/extrinsic_rotation.h"
+
+namespace plm_vins {
+
+// A gross error of the camera's rotation in the body, of the kinds that occur.
+struct MountingError {
+  enum class Kind { kInverse, kTurned };  // the inverse was given; the image is turned
+  Kind kind = Kind::kInverse;
+  double angle = 0;  // of the error; of a turned image about the optical axis, signed [rad]
+};
+
+// Returns the error that explains the pairs if the configured rotation does not: needs rotations
+// about one axis only. Returns nullopt if there is none, or too few rotations.
+std::optional<MountingError> ExplainByMounting(const std::vector<RotationPair>& pairs,
+                                               const Eigen::Quaterniond& R_B_C);
+
+}  // namespace plm_vins

@@ -13,6 +13,7 @@
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/imu/imu_noise_meter.h"
 #include "vins_estimator/input/repeated_image_detector.h"
+#include "vins_estimator/lengths/stated_lengths.h"
 #include "vins_estimator/monitoring/contradiction_report.h"
 #include "vins_estimator/monitoring/sensor_report.h"
 #include "vins_estimator/rotation_calibration/rotation_check.h"
@@ -22,6 +23,10 @@ namespace plm_vins {
 namespace {
 
 constexpr char kJumpedBack[] = "timestamps jumped back";
+
+// Standard deviations that stand for findings without any: what the data state themselves, and what
+// other causes may show as well.
+constexpr double kFact = 1000, kUnfeltMotion = 8;
 
 // Returns a lower bound on the speed, three standard deviations below the estimate [m/s].
 double LeastSpeed(const EstimatorOutput& output) {
@@ -81,6 +86,7 @@ struct EstimationStage::PerWorld {
 EstimationStage::EstimationStage(const Config& config, double max_wait)
     : config_(config),
       estimator_(std::make_unique<Estimator>(config)),
+      lengths_(std::make_unique<StatedLengths>(config)),
       door_(config.sensor),
       input_check_(config.sensor),
       sync_(MakeSyncOptions(config, max_wait)),
@@ -171,7 +177,7 @@ std::string EstimationStage::ImuContradiction() const {
   evidence.gyro_noise_factor = meter.gyro_density() / configured.gyro_density;
   using Rotations = ContradictionEvidence::Rotations;
   if (world_->rotation_checks.front().agrees()) evidence.rotations = Rotations::kAgree;
-  if (!FindRotationFault().empty()) evidence.rotations = Rotations::kExplained;
+  if (!FindRotationFault().text.empty()) evidence.rotations = Rotations::kExplained;
   return DescribeContradiction(evidence);
 }
 
@@ -186,22 +192,47 @@ const Finding& EstimationStage::InputFinding() const { return world_->input_faul
 
 void EstimationStage::CheckInput(int64_t t_ns) {
   constexpr int64_t kInputsPerCheck = 10;
-  if (++inputs_ % kInputsPerCheck == 0) world_->input_faults.Set(t_ns, FindInputFault());
+  if (++inputs_ % kInputsPerCheck == 0) {
+    const RankedFinding fault = FindInputFault();
+    world_->input_faults.Set(t_ns, fault.text, fault.sigmas);
+  }
 }
 
-std::string EstimationStage::FindInputFault() const {
+RankedFinding EstimationStage::FindInputFault() const {
   const std::string fault = input_check_.Finding(sync_.imu_door().bursts());
-  if (!fault.empty()) return fault;
-  const std::string rotation_fault = FindRotationFault();
-  if (!rotation_fault.empty()) return rotation_fault;
-  if (!estimator_->SeesUnfeltMotion()) return "";
-  return "the camera sees motion that the IMU does not feel: something that moves fills the view "
-         "(a train, the deck of a ship), or the IMU does not belong to this camera; meanwhile the "
-         "images move no estimate and start none";
+  if (!fault.empty()) return {fault, kFact};
+  const RankedFinding rotations = FindRotationFault();
+  const RankedFinding lengths = {lengths_->Finding(), lengths_->Contradiction()};
+  const RankedFinding& worst = rotations.sigmas >= lengths.sigmas ? rotations : lengths;
+  if (!worst.text.empty() || !estimator_->SeesUnfeltMotion()) return worst;
+  return {
+      "the camera sees motion that the IMU does not feel: something that moves fills the view "
+      "(a train, the deck of a ship), or the IMU does not belong to this camera; meanwhile the "
+      "images move no estimate and start none",
+      kUnfeltMotion};
 }
 
-std::string EstimationStage::FindRotationFault() const {
-  return FirstOf<RotationCheck>(world_->rotation_checks, &RotationCheck::finding);
+// One mistake in the convention of several transforms is named once. If the first one is inverted,
+// so are all that do not fit as configured: second cameras of pairs match no points then.
+RankedFinding EstimationStage::FindRotationFault() const {
+  RankedFinding worst;
+  std::string inverted;
+  bool is_any = false, are_several = false;
+  for (size_t i = 0; i < world_->rotation_checks.size(); ++i) {
+    const RotationCheck& check = world_->rotation_checks[i];
+    const RankedFinding& found = check.ranked_finding();
+    if (found.sigmas > worst.sigmas) worst = found;
+    const bool may_be = check.is_inverted() || (found.text.empty() && !check.agrees());
+    is_any |= check.is_inverted();
+    if (!may_be) continue;
+    are_several = !inverted.empty();
+    inverted += (are_several ? " and " : "") + TransformKey(static_cast<int>(i));
+  }
+  if (!is_any || !are_several) return worst;
+  return {inverted +
+              " are inverted, by the rotations of cameras and gyro: give the cameras in the "
+              "IMU frame (T_imu_cam), not the IMU in the camera frames (T_cam_imu)",
+          worst.sigmas};
 }
 
 void EstimationStage::CheckRotations(const FrameMeasurement& measurement,
@@ -234,12 +265,23 @@ void EstimationStage::Reset(const std::string& reason) {
 // If there was no output since the last start, there is no world frame to end and to announce.
 void EstimationStage::StartOver(const std::string& reason) {
   estimator_->Reset();
+  lengths_->StartOver();
   world_ = std::make_unique<PerWorld>(config_);
   sync_.SetTimeOffset(estimator_->time_offset());
   if (reinitializing_) return;
   ++resets_;
   restart_reason_ = reason;
   reinitializing_ = true;
+}
+
+void EstimationStage::RepeatWithoutWrongLengths() {
+  estimator_ = std::make_unique<Estimator>(lengths_->Usable(config_));
+  for (const FrameMeasurement& image : lengths_->images()) {
+    estimator_->Process(lengths_->Usable(image));
+  }
+  sync_.SetTimeOffset(estimator_->time_offset());
+  ++resets_;
+  restart_reason_ = lengths_->Finding();
 }
 
 std::optional<EstimatedFrame> EstimationStage::Process(
@@ -250,6 +292,8 @@ std::optional<EstimatedFrame> EstimationStage::Process(
     measurement->points.points.clear();
     measurement->lines.reset();
   }
+  if (lengths_->Add(*measurement)) RepeatWithoutWrongLengths();
+  *measurement = lengths_->Usable(std::move(*measurement));
   EstimatedFrame frame;
   frame.output = estimator_->Process(*measurement);
   frame.points = measurement->points;

@@ -23,6 +23,7 @@
 namespace plm_vins {
 
 class Estimator;
+class StatedLengths;
 
 // The estimate of an image, with the other data to publish.
 struct EstimatedFrame {
@@ -91,16 +92,19 @@ class EstimationStage {
   std::optional<EstimatedFrame> Process(std::optional<FrameMeasurement> measurement);
   // Looks for what is wrong with the input, at every tenth call only.
   void CheckInput(int64_t t_ns);
-  std::string FindInputFault() const;
-  std::string FindRotationFault() const;
+  RankedFinding FindInputFault() const;
+  RankedFinding FindRotationFault() const;
   void StartOver(const std::string& reason);
+  // Repeats the estimate from the stored images without the lengths that are wrong.
+  void RepeatWithoutWrongLengths();
   // Returns the configured noise, or the noise that the samples show if that is greater.
   ImuNoise NoiseOfSamples() const;
   // Searches for the cause (RotationCheck) if the estimate stays in doubt.
   void CheckRotations(const FrameMeasurement& measurement, const EstimatorOutput& output);
 
   const Config config_;
-  const std::unique_ptr<Estimator> estimator_;  // hides the solver from users of this header
+  std::unique_ptr<Estimator> estimator_;  // hides the solver from users of this header
+  const std::unique_ptr<StatedLengths> lengths_;
   FeatureDoor door_;
   InputCheck input_check_;
   MeasurementSync sync_;

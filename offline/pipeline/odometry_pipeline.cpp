@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "offline/pipeline/odometry_pipeline.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -14,6 +15,12 @@ constexpr size_t kQueueCapacity = 200;  // items, mostly IMU samples of about a 
 // Upper bound of the images that the back end may still report. It exceeds the number that may
 // wait, since dropped images are never reported.
 constexpr size_t kMaxUnfinished = 300;
+
+// By how many standard deviations findings without any exceed what is usual: what the data state
+// themselves, then what tells its cause, then symptoms that several causes share. The causes that
+// explain a symptom are more certain (RankedFinding).
+constexpr double kStamps = 1000, kStillParts = 10, kPair = 7, kSensors = 5, kLens = 4.5,
+                 kContradiction = 4;
 
 bool IsPowerOfTwo(int64_t count) { return (count & (count - 1)) == 0; }
 
@@ -50,12 +57,21 @@ std::string OdometryPipeline::InputFinding() const {
 }
 
 std::vector<std::string> OdometryPipeline::Findings() const {
-  std::vector<std::string> findings;
   const bool is_contradicted = contradicted_images_ >= kMinContradicted;
-  for (const std::string& finding :
-       {InputFinding(), StillPartsFinding(), trackers_.PairFinding(), back_end_.LensWarning(),
-        is_contradicted ? imu_contradiction_ : "", sensor_faults_.finding().text}) {
-    if (!finding.empty()) findings.push_back(finding);
+  const Finding &stamps = stamp_faults_.finding(), &input = back_end_.InputFinding();
+  std::vector<RankedFinding> ranked = {
+      {stamps.text, stamps.sigmas},
+      {input.text, input.sigmas},
+      {StillPartsFinding(), kStillParts},
+      {trackers_.PairFinding(), kPair},
+      {sensor_faults_.finding().text, sensor_faults_.finding().sigmas},
+      {back_end_.LensWarning(), kLens},
+      {is_contradicted ? imu_contradiction_ : "", kContradiction}};
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.sigmas > b.sigmas; });
+  std::vector<std::string> findings;
+  for (RankedFinding& finding : ranked) {
+    if (!finding.text.empty()) findings.push_back(std::move(finding.text));
   }
   return findings;
 }
@@ -157,7 +173,7 @@ void OdometryPipeline::AddImage(const RecordingEvent& event, cv::Mat image) {
   if (event.camera == 0) {
     first_image_.Add(event.t_ns);
     image_stamps_.Add(event.t_ns);
-    stamp_faults_.Set(event.t_ns, image_stamps_.Finding("image_topic " + image_topic_));
+    stamp_faults_.Set(event.t_ns, image_stamps_.Finding("image_topic " + image_topic_), kStamps);
   }
   trackers_.AddImage(event.camera, {event.t_ns, std::move(image)});
 }
@@ -222,7 +238,7 @@ void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_
     imu_contradiction_ = contradiction;
     ++contradicted_images_;
   }
-  sensor_faults_.Set(estimated.output.t_ns, back_end_.SensorFaults());
+  sensor_faults_.Set(estimated.output.t_ns, back_end_.SensorFaults(), kSensors);
   PipelineFrame frame;
   const auto reported = unfinished_.find(estimated.output.t_ns);
   if (reported != unfinished_.end()) {

@@ -9,7 +9,7 @@ namespace plm_vins {
 namespace {
 
 constexpr double kPrior = 0.002;
-constexpr double kAccelScaleDeviation = 0.0025;  // considered
+constexpr double kAccelScaleDeviation = 0.0075;  // considered
 
 // Combines evidence and the prior's zero.
 TEST(LengthEvidence, IsWhatRemainsWithoutThePrior) {

@@ -18,6 +18,7 @@ using Cause = RotationFit::Cause;
 constexpr double kHistory = 0.5;                       // more than the interval of a pair [s]
 constexpr double kStride = 0.3, kStrideInDoubt = 0.1;  // between pairs [s]
 constexpr size_t kMaxPairs = 200;
+constexpr int64_t kFirstPairs = 40;             // of a further camera, before it is known
 constexpr int64_t kJudgedPairs = 10;            // between judgements
 constexpr double kMaxExtrinsicsError = 0.17;    // [rad]; larger errors are not linear
 constexpr double kLeastExtrinsicsError = 0.02;  // [rad]; smaller errors are usual
@@ -69,25 +70,48 @@ RotationCheck::RotationCheck(const SensorConfig& sensor, int camera, double poin
     : sensor_(sensor),
       camera_(camera),
       noise_(point_noise_px /
-             CameraModel::Create(sensor.cameras[camera].parameters)->FocalLength()) {}
+             CameraModel::Create(sensor.cameras[camera].parameters)->FocalLength()),
+      lag_(sensor.cameras[camera].T_B_C.rotation) {}
 
 void RotationCheck::Add(const FrameMeasurement& measurement, bool in_doubt) {
-  if (!frames_.empty() && LeaveGap(measurement.imu)) frames_.clear();
+  if (!frames_.empty() && LeaveGap(measurement.imu)) {
+    frames_.clear();
+    lag_.Clear();
+  }
+  lag_.AddImu(measurement.imu);
   frames_.push_back(measurement);
   frames_.back().lines.reset();
   while (ToSeconds(measurement.t_ns - frames_.front().t_ns) > kHistory) frames_.pop_front();
   if (!Observes(measurement.points, camera_)) return;
-  const double stride = (in_doubt ? kStrideInDoubt : kStride) - 1e-3;
+  // What the estimate does not doubt may yet be wrong in a camera that others outweigh.
+  const bool is_unknown = camera_ > 0 && measured_ < kFirstPairs;
+  const double stride = (in_doubt || is_unknown ? kStrideInDoubt : kStride) - 1e-3;
   if (measured_ns_ && ToSeconds(measurement.t_ns - *measured_ns_) < stride) return;
   measured_ns_ = measurement.t_ns;
   std::string reason;
   const auto pair = MeasureRotationPair(frames_, camera_, sensor_.imu_noise, noise_, &reason);
   if (!pair) return;
+  const int64_t now_ns = measurement.imu.back().t_ns;
+  lag_.AddRotation(now_ns - ToNanoseconds(pair->duration), now_ns, pair->R_then_now,
+                   pair->deviation);
   pairs_.push_back(*pair);
   if (pairs_.size() > kMaxPairs) pairs_.erase(pairs_.begin());
   const bool is_known =
       sensor_.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation;
   if (++measured_ % kJudgedPairs == 0 && is_known) Judge(sensor_.cameras[camera_].T_B_C.rotation);
+}
+
+// Returns whether the timestamps are off by more than a linear fit finds.
+bool RotationCheck::FindLag() {
+  const std::optional<double> lag = lag_.lag();
+  if (!lag) return false;
+  finding_.text =
+      camera_ == 0 ? Format("td is wrong by about %+.0f ms%s: add this to td, or correct the clock",
+                            1e3 * *lag, kBy)
+                   : Format("timestamps of camera %d are wrong by about %+.0f ms%s: correct them",
+                            camera_, -1e3 * *lag, kBy);
+  finding_.sigmas = kSigmas * std::abs(*lag) / LeastAmount(Cause::kTimeOffset);
+  return true;
 }
 
 bool RotationCheck::FindGrossError(const Eigen::Quaterniond& R_B_C) {
@@ -115,7 +139,7 @@ RotationFit RotationCheck::Explain(const Eigen::Quaterniond& R_B_C) const {
 
 void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
   agrees_ = false;
-  if (FindGrossError(R_B_C)) return;
+  if (FindLag() || FindGrossError(R_B_C)) return;
   const RotationFit fit = Explain(R_B_C);
   agrees_ = fit.cause == Cause::kNone;
   // A gross error lasts while the rotations tell too little.

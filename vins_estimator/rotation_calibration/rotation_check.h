@@ -12,6 +12,7 @@
 #include "common/measurements.h"
 #include "vins_estimator/rotation_calibration/mounting.h"
 #include "vins_estimator/rotation_calibration/rotation_fit.h"
+#include "vins_estimator/rotation_calibration/stamp_lag.h"
 
 namespace plm_vins {
 
@@ -39,6 +40,7 @@ class RotationCheck {
 
  private:
   void Judge(const Eigen::Quaterniond& R_B_C);
+  bool FindLag();
   // Returns whether the rotation is grossly wrong.
   bool FindGrossError(const Eigen::Quaterniond& R_B_C);
   RotationFit Explain(const Eigen::Quaterniond& R_B_C) const;
@@ -48,7 +50,8 @@ class RotationCheck {
   const int camera_;
   const double noise_;  // of a normalized coordinate
   std::deque<FrameMeasurement> frames_;
-  std::vector<RotationPair> pairs_;     // oldest first
+  std::vector<RotationPair> pairs_;  // oldest first
+  StampLag lag_;
   std::optional<int64_t> measured_ns_;  // newest image of the last pair
   int64_t measured_ = 0;                // number of pairs so far
   RankedFinding finding_;

@@ -83,7 +83,7 @@ void RotationCheck::Add(const FrameMeasurement& measurement, bool in_doubt) {
   frames_.back().lines.reset();
   while (ToSeconds(measurement.t_ns - frames_.front().t_ns) > kHistory) frames_.pop_front();
   if (!Observes(measurement.points, camera_)) return;
-  // What the estimate does not doubt may yet be wrong in a camera that others outweigh.
+  // A further camera may be wrong without doubt about the estimate, which the others determine.
   const bool is_unknown = camera_ > 0 && measured_ < kFirstPairs;
   const double stride = (in_doubt || is_unknown ? kStrideInDoubt : kStride) - 1e-3;
   if (measured_ns_ && ToSeconds(measurement.t_ns - *measured_ns_) < stride) return;

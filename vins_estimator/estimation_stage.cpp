@@ -172,6 +172,7 @@ std::string EstimationStage::ImuContradiction() const {
   using Rotations = ContradictionEvidence::Rotations;
   if (world_->rotation_checks.front().agrees()) evidence.rotations = Rotations::kAgree;
   if (!FindRotationFault().empty()) evidence.rotations = Rotations::kExplained;
+  evidence.camera_rests = estimator_->FeelsUnseenMotion();
   return DescribeContradiction(evidence);
 }
 
@@ -195,9 +196,15 @@ std::string EstimationStage::FindInputFault() const {
   const std::string rotation_fault = FindRotationFault();
   if (!rotation_fault.empty()) return rotation_fault;
   if (!estimator_->SeesUnfeltMotion()) return "";
+  if (!world_->newest.has_pose) {
+    return "constant speed: scale not observable yet, as the camera sees motion that the IMU does "
+           "not feel: accelerate; or something that moves fills the view (a train, the deck of a "
+           "ship), or the IMU does not belong to this camera; meanwhile the images start no "
+           "estimate";
+  }
   return "the camera sees motion that the IMU does not feel: something that moves fills the view "
          "(a train, the deck of a ship), or the IMU does not belong to this camera; meanwhile the "
-         "images move no estimate and start none";
+         "images move no estimate";
 }
 
 std::string EstimationStage::FindRotationFault() const {

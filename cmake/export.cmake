@@ -6,7 +6,13 @@ include(CMakePackageConfigHelpers)
 
 set(package_folder share/${PROJECT_NAME}/cmake)
 plm_export(plm_common plm_state plm_tracking plm_feature_tracker plm_linefeature_tracker
-           plm_estimator plm_estimation_stage plm_output plm_pose_graph plm_map_bundle)
+           plm_estimator plm_estimation_stage plm_output)
+if(PLM_LOOP_CLOSURE)
+  plm_export(plm_pose_graph)
+endif()
+if(PLM_OFFLINE)
+  plm_export(plm_map_bundle)
+endif()
 install(EXPORT plm_vinsTargets NAMESPACE plm_vins:: DESTINATION ${package_folder})
 foreach(folder common tracking feature_tracker linefeature_tracker vins_estimator pose_graph
         map_bundle)

@@ -16,16 +16,16 @@ constexpr double kRotationTolerance = 5e-3;     // allows matrices with three de
 constexpr Range kTranslationRange = {-10, 10};  // [m]
 constexpr Range kScaleRange = {0.5, 2};         // scale factors of an IMU's corrections [1]
 
-Problem SetRotation(const Eigen::MatrixXd& R_B_C, Rigid3d* T_B_C) {
+Problem SetRotation(const Eigen::Matrix3d& R_B_C, Rigid3d* T_B_C) {
   const Eigen::Matrix3d error = R_B_C * R_B_C.transpose() - Eigen::Matrix3d::Identity();
   if (error.cwiseAbs().maxCoeff() > kRotationTolerance || R_B_C.determinant() < 0) {
     return "is not a rotation matrix; its rows must be orthonormal and right-handed";
   }
-  T_B_C->rotation = Eigen::Quaterniond(Eigen::Matrix3d(R_B_C)).normalized();
+  T_B_C->rotation = Eigen::Quaterniond(R_B_C).normalized();
   return std::nullopt;
 }
 
-Problem SetTranslation(const Eigen::MatrixXd& p_B_C, Rigid3d* T_B_C) {
+Problem SetTranslation(const Eigen::Vector3d& p_B_C, Rigid3d* T_B_C) {
   if (p_B_C.minCoeff() < kTranslationRange.min || p_B_C.maxCoeff() > kTranslationRange.max) {
     return "out of range, each must be " + ToText(kTranslationRange) + " [m]";
   }
@@ -142,8 +142,8 @@ ConfigKeys<ImuNoise> ImuNoiseKeys() {
 // The scale factors of a matrix are its singular values. The axes of both frames are right-handed,
 // so the determinant is positive.
 ConfigKey<ImuSensor> CorrectionKey(const std::string& name, Eigen::Matrix3d ImuSensor::*field) {
-  const auto set = [field](const Eigen::MatrixXd& matrix, ImuSensor& sensor) -> Problem {
-    const Eigen::VectorXd scales = matrix.jacobiSvd().singularValues();
+  const auto set = [field](const Eigen::Matrix3d& matrix, ImuSensor& sensor) -> Problem {
+    const Eigen::Vector3d scales = matrix.jacobiSvd().singularValues();
     if (scales.minCoeff() < kScaleRange.min || scales.maxCoeff() > kScaleRange.max) {
       return "is not a valid IMU correction; its scale factors must be " + ToText(kScaleRange);
     }

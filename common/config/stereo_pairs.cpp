@@ -2,7 +2,9 @@
 #include "common/config/stereo_pairs.h"
 
 #include <algorithm>
-#include <regex>
+#include <optional>
+#include <sstream>
+#include <string>
 
 #include "common/camera/camera_model.h"
 
@@ -47,20 +49,27 @@ std::vector<StereoPair> OverlappingPairs(const std::vector<CameraSensor>& camera
   return pairs;
 }
 
-std::vector<StereoPair> ReadPairs(const std::string& text) {
-  static const std::regex pattern("(\\d)-(\\d)");
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+// Returns the pairs in "none" or a text such as "0-1 2-3"; nullopt if it is neither.
+std::optional<std::vector<StereoPair>> ReadPairs(const std::string& text) {
   std::vector<StereoPair> pairs;
-  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
-    pairs.push_back({std::stoi((*match)[1]), std::stoi((*match)[2])});
+  if (text == "none") return pairs;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const bool is_pair = word.size() == 3 && IsDigit(word[0]) && word[1] == '-' && IsDigit(word[2]);
+    if (!is_pair) return std::nullopt;
+    pairs.push_back({word[0] - '0', word[2] - '0'});
   }
-  return pairs;
+  return pairs.empty() ? std::nullopt : std::optional(pairs);
 }
 
 }  // namespace
 
 std::vector<StereoPair> StereoPairs(const SensorConfig& sensor) {
-  return sensor.stereo_pairs == "auto" ? OverlappingPairs(sensor.cameras)
-                                       : ReadPairs(sensor.stereo_pairs);
+  return sensor.stereo_pairs == "auto"
+             ? OverlappingPairs(sensor.cameras)
+             : ReadPairs(sensor.stereo_pairs).value_or(std::vector<StereoPair>());
 }
 
 bool IsTracked(int camera, const std::vector<StereoPair>& pairs) {
@@ -69,12 +78,11 @@ bool IsTracked(int camera, const std::vector<StereoPair>& pairs) {
 }
 
 Problem CheckStereoPairs(const SensorConfig& sensor) {
-  static const std::regex pattern("auto|none|\\d-\\d( \\d-\\d)*");
-  if (!std::regex_match(sensor.stereo_pairs, pattern)) {
-    return "must be auto, none, or pairs of cameras such as 0-1 2-3";
-  }
+  if (sensor.stereo_pairs == "auto") return std::nullopt;
+  const auto stated = ReadPairs(sensor.stereo_pairs);
+  if (!stated) return "must be auto, none, or pairs of cameras such as 0-1 2-3";
   std::vector<StereoPair> pairs;
-  for (const StereoPair& pair : ReadPairs(sensor.stereo_pairs)) {
+  for (const StereoPair& pair : *stated) {
     if (pair.first >= pair.second || pair.second >= static_cast<int>(sensor.cameras.size())) {
       return "must name two cameras below num_of_cam, the smaller number first";
     }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <regex>
 #include <system_error>
 #include <utility>
 
@@ -17,10 +16,13 @@ namespace {
 // Returns the number of the camera that a key belongs to: 2 for "cam2_model_type", "cam2_calib",
 // "image2_topic" and "body_T_cam2". Returns nullopt if the key has no number.
 std::optional<int> CameraNumber(const std::string& key) {
-  static const std::regex pattern("cam(\\d)_.*|image(\\d)_topic|body_T_cam(\\d)");
-  std::smatch match;
-  if (!std::regex_match(key, match, pattern)) return std::nullopt;
-  return std::stoi(match.format("$1$2$3"));
+  const size_t digit = key.find_first_of("0123456789");
+  if (digit == std::string::npos) return std::nullopt;
+  const std::string before = key.substr(0, digit), after = key.substr(digit + 1);
+  const bool is_camera = (before == "cam" && after.find('_') == 0) ||
+                         (before == "image" && after == "_topic") ||
+                         (before == "body_T_cam" && after.empty());
+  return is_camera ? std::optional(key[digit] - '0') : std::nullopt;
 }
 
 bool IsOfCalibration(const std::string& key) {

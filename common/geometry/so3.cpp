@@ -44,7 +44,14 @@ Eigen::Matrix3d SO3RightJacobianInverse(const Eigen::Vector3d& phi) {
 }
 
 Eigen::Quaterniond ShortestRotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to);
+  const Eigen::Vector3d a = from.normalized(), b = to.normalized();
+  const double cosine = b.dot(a);
+  if (cosine < -1 + 1e-12) return Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, a.unitOrthogonal()));
+  const double scale = std::sqrt(2 * (1 + cosine));
+  Eigen::Quaterniond q;
+  q.w() = 0.5 * scale;
+  q.vec() = a.cross(b) * (1 / scale);
+  return q;
 }
 
 double Yaw(const Eigen::Quaterniond& q) {

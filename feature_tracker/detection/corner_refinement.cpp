@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "feature_tracker/detection/corner_refinement.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,9 +42,10 @@ std::optional<cv::Point2f> Step(const cv::Mat_<float>& patch) {
       b += G * Eigen::Vector2d(x, y);
     }
   }
-  const Eigen::Vector2d eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(A, Eigen::EigenvaluesOnly).eigenvalues();
-  if (!(eigenvalues[0] > kMinConditioning * eigenvalues[1])) return std::nullopt;
+  // Eigenvalues of ratio k have the determinant k / (1 + k)^2 times the squared trace.
+  constexpr double kMinDeterminant =
+      kMinConditioning / ((1 + kMinConditioning) * (1 + kMinConditioning));
+  if (!(A.determinant() > kMinDeterminant * A.trace() * A.trace())) return std::nullopt;
   const Eigen::Vector2d step = A.inverse() * b;
   return cv::Point2f(static_cast<float>(step.x()), static_cast<float>(step.y()));
 }

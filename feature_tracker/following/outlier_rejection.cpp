@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "feature_tracker/following/outlier_rejection.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "common/geometry/epipolar_constraint.h"
 #include "common/geometry/robust_weight.h"
 #include "common/geometry/so3.h"
+#include "common/geometry/symmetric_system.h"
 #include "common/geometry/tangent_basis.h"
 
 namespace plm_vins {
@@ -71,7 +71,7 @@ Eigen::Matrix3d FitRotation(const std::vector<RayPair>& pairs, double scale) {
       H += weight * (Eigen::Matrix3d::Identity() - a * a.transpose());
       g += weight * a.cross(error);
     }
-    const Eigen::Vector3d step = H.ldlt().solve(g);
+    const Eigen::Vector3d step = SolveSymmetric(H, g);
     if (!step.allFinite()) break;
     R = SO3Exp(step) * R;
   }
@@ -106,7 +106,7 @@ EpipolarGeometry Refine(const std::vector<RayPair>& pairs, const EpipolarGeometr
     H.noalias() += weight * J * J.transpose();
     g.noalias() -= weight * r.error * J;
   }
-  const Vector5d step = H.ldlt().solve(g);
+  const Vector5d step = SolveSymmetric(H, g);
   if (!step.allFinite()) return geometry;
   return {SO3Exp(step.head<3>()) * geometry.R_now_then,
           (geometry.t_now + basis * step.tail<2>()).normalized()};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linefeature_tracker/following/line_flow.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "common/geometry/symmetric_system.h"
 #include "linefeature_tracker/segments/line_offset.h"
 #include "linefeature_tracker/segments/line_profile.h"
 #include "linefeature_tracker/segments/segment_sampler.h"
@@ -145,7 +145,7 @@ class LevelAlignment {
     if (used < kMinProfiles) return std::nullopt;
     H.bottomLeftCorner<1, 2>() = H.topRightCorner<2, 1>().transpose();
     if (!may_turn) H(1, 1) *= 1e6;
-    const Eigen::Vector3d solution = H.ldlt().solve(b);
+    const Eigen::Vector3d solution = SolveSymmetric(H, b);
     if (!solution.allFinite()) return std::nullopt;
     return LineOffset{solution.x(), solution.y()};
   }

@@ -80,11 +80,10 @@ void DeclareFlight(FlightOptions* flight, CommandLine* line) {
   line->Add("world",
             TakeChoice<WorldKind>({{"room", WorldKind::kRoom},
                                    {"corridor", WorldKind::kCorridor},
-                                   {"hall", WorldKind::kHall},
                                    {"twins", WorldKind::kTwins},
                                    {"irregular", WorldKind::kIrregular}},
                                   &flight->world),
-            "where to fly: room (default), corridor, hall, irregular: a room without right angles, "
+            "where to fly: room (default), corridor, irregular: a room without right angles, "
             "twins: two equal rooms");
   line->Add("texture",
             TakeChoice<TextureStyle>({{"rich", TextureStyle::kRich}, {"weak", TextureStyle::kWeak}},

@@ -219,13 +219,6 @@ void Furnisher::AddCrate(const Vector3d& floor_center, double size, double yaw) 
   }
 }
 
-void Furnisher::AddPillar(const Vector3d& floor_center, double width, double height) {
-  scene_->AddBox(Upright(floor_center + Vector3d(0, 0, 0.5 * height), 0), {width, width, height},
-                 materials_.cardboard);
-  scene_->AddBox(Upright(floor_center + Vector3d(0, 0, 0.15), 0), {width + 0.1, width + 0.1, 0.3},
-                 materials_.metal);
-}
-
 void Furnisher::AddPlank(const Vector3d& foot, const Vector3d& head, double width) {
   const Vector3d along = head - foot;
   const Rigid3d T_W_O(ShortestRotation(Vector3d::UnitZ(), along), 0.5 * (foot + head));

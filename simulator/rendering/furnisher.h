@@ -63,12 +63,9 @@ class Furnisher {
 
   void AddTable(const Eigen::Vector3d& floor_center, double yaw);
   void AddCrate(const Eigen::Vector3d& floor_center, double size, double yaw);
-  void AddPillar(const Eigen::Vector3d& floor_center, double width, double height);
   // Adds a plank that leans against something.
   void AddPlank(const Eigen::Vector3d& foot, const Eigen::Vector3d& head, double width);
 
-  bool rich() const { return rich_; }
-  const Materials& materials() const { return materials_; }
   Random& random() { return random_; }
 
  private:

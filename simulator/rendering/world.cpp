@@ -118,55 +118,6 @@ World MakeCorridor(TextureStyle style, uint64_t seed) {
   return world;
 }
 
-void AddRoof(Furnisher* furnisher, Scene* scene, const Vector3d& size) {
-  for (double x = -10; x <= 10; x += 4) {
-    const Rigid3d T_W_O(Eigen::Quaterniond::Identity(), {x, 0, size.z() - 0.3});
-    scene->AddBox(T_W_O, {0.3, size.y() - 0.02, 0.6}, furnisher->materials().metal);
-    furnisher->AddLamp({x + 2, 0, size.z() - 0.7}, 3.0, M_PI / 2);
-    // Diagonal struts between the beams.
-    scene->AddPipe({x, -4, size.z() - 0.5}, {x + 4, 4, size.z() - 0.5}, 0.08,
-                   furnisher->materials().metal);
-  }
-}
-
-World MakeHall(TextureStyle style, uint64_t seed) {
-  World world;
-  world.flight_center = {0, 0, 2.2};
-  world.flight_extent = {6, 3.5, 0.9};
-  const Vector3d size(24, 16, 7);
-  Furnisher furnisher(&world.scene, style, 0.006, seed);
-  const auto walls =
-      furnisher.AddRoom(BoxFloor(size), size.z(),
-                        {Surface::kBricks, Surface::kPanels, Surface::kPlaster, Surface::kBricks},
-                        Surface::kTiles, Surface::kPanels);
-  for (const Wall& wall : walls) {
-    for (double x = 1.5; x < wall.width - 4; x += 5) {
-      furnisher.AddWindow(wall, x, 3.6, 2.4, 1.8);
-      furnisher.AddDoor(wall, x + 2.8);
-      furnisher.AddShelf(wall, x - 0.8, 1.8, 2.4);
-    }
-    HangPosters(&furnisher, wall, 1.0, wall.width - 1, 2.6);
-    RunPipe(&furnisher, wall, 6.0, 0.12, 5.3);
-  }
-  for (double x = -9; x <= 9; x += 6) {
-    for (const double y : {-5.5, 5.5}) furnisher.AddPillar({x, y, 0}, 0.45, size.z() - 0.6);
-  }
-  Random& random = furnisher.random();
-  for (int i = 0; i < 14; ++i) {
-    const double side = i % 2 == 0 ? 1 : -1, edge = random.Uniform(0.6, 1.3);
-    const Vector3d place(random.Uniform(-10, 10), side * random.Uniform(4.6, 6.8), 0);
-    furnisher.AddCrate(place, edge, random.Uniform(0, 1.5));
-  }
-  for (const double side : {-1.0, 1.0}) {
-    furnisher.AddCrate({side * 8.5, side * 1.0, 0}, 1.4, 0.4);
-    furnisher.AddCrate({side * 8.5, side * 1.0, 1.4}, 0.9, 0.9);
-    furnisher.AddTable({side * 9, -2.5 * side, 0}, 0.7);
-    furnisher.AddPlank({side * 10.6, side * 3, 0}, {side * 11.8, side * 4, 3.2}, 0.25);
-  }
-  AddRoof(&furnisher, &world.scene, size);
-  return world;
-}
-
 // Furnishes each wall with one kind of objects, in turn, and with rotated posters.
 void FurnishWall(Furnisher* furnisher, const Wall& wall, size_t index) {
   switch (index % 3) {
@@ -271,8 +222,6 @@ World MakeWorld(WorldKind kind, TextureStyle style, uint64_t seed) {
   switch (kind) {
     case WorldKind::kCorridor:
       return MakeCorridor(style, seed);
-    case WorldKind::kHall:
-      return MakeHall(style, seed);
     case WorldKind::kTwins:
       return MakeTwins(style, seed);
     case WorldKind::kIrregular:

@@ -12,7 +12,6 @@ namespace plm_vins::simulator {
 enum class WorldKind {
   kRoom,
   kCorridor,
-  kHall,
   kTwins,     // two identical rooms, connected by a corridor
   kIrregular  // room with arbitrary directions of walls and objects
 };

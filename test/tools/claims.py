@@ -11,6 +11,7 @@ import argparse
 import dataclasses
 import pathlib
 import re
+import resource
 import subprocess
 import sys
 import textwrap
@@ -75,14 +76,14 @@ class Runs:
                 return ["--bag", folder / f"{name}.bag"], folder / f"{name}.tum"
         return None
 
-    def run(self, recording, start, row):
-        """Returns the folder of results."""
+    def run(self, recording, start, row, again=False):
+        """Returns the folder of results; `again`: repeats a run that is complete."""
         settings = {**row.get("set", {}), **recording.get("set", {})}
         config = recording.get("configs", {}).get(row["title"], row.get("config", "euroc.yaml"))
         words = [recording["name"], pathlib.Path(config).stem, start,
                  *(f"{key}={value}" for key, value in settings.items())]
         results = self.output / re.sub(r"[^\w.=-]", "_", "_".join(map(str, words)))
-        if (results / "summary.json").is_file():
+        if (results / "summary.json").is_file() and not again:
             return results
         source, _ = self.find(recording["name"])
         config = next((folder / config for folder in self.folders if (folder / config).is_file()),
@@ -139,6 +140,23 @@ def time_table(table, runs):
     return Table(["stage", "mean", "p50", "p95", "p99"], rows), f"*Commit {runs.commit}.*"
 
 
+def cpu_table(table, runs):
+    """User time of each row relative to the first one, in interleaved runs."""
+    recording = table["recordings"][0]
+    seconds = []
+    for _ in range(table["repetitions"]):
+        for row in table["rows"]:
+            before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+            runs.run(recording, recording["starts"][0], row, again=True)
+            seconds.append(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before)
+    ratios = np.reshape(seconds, (table["repetitions"], -1))
+    ratios = ratios / ratios[:, :1]
+    rows = [[row["title"], f"{np.mean(ratio):.2f} ({min(ratio):.2f} to {max(ratio):.2f})"]
+            for row, ratio in zip(table["rows"], ratios.T)]
+    return (Table(["", "user CPU time"], rows),
+            f"*Commit {runs.commit}, {table['repetitions']} interleaved runs each.*")
+
+
 def text_table(table, _):
     return Table(table["heading"], table["rows"]), f"*{table['source']}*"
 
@@ -166,7 +184,8 @@ def main(arguments):
         if missing:
             print(f"{name}: stays, without {', '.join(missing)}")
             continue
-        make = {"errors": error_table, "times": time_table, "text": text_table}[table["kind"]]
+        make = {"errors": error_table, "times": time_table, "cpu": cpu_table,
+                "text": text_table}[table["kind"]]
         made, note = make(table, runs)
         for page in table["pages"]:
             write(options.pages / page, name, f"\n{made}\n\n{textwrap.fill(note, 120)}\n\n")

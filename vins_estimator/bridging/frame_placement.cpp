@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/bridging/frame_placement.h"
 
-#include <Eigen/Cholesky>
-
 #include "common/geometry/so3.h"
+#include "common/geometry/symmetric_system.h"
 
 namespace plm_vins {
 namespace {
@@ -48,7 +47,7 @@ bool DifferByFrame(const UncertainState& known, const FrameState& fresh,
   Eigen::Matrix<double, 5, 5> covariance =
       d_difference_d_known * known.covariance * d_difference_d_known.transpose();
   covariance.diagonal() += deviation.cwiseAbs2();
-  return difference.dot(covariance.ldlt().solve(difference)) < kMaxChiSquare;
+  return difference.dot(SolveSymmetric(covariance, difference)) < kMaxChiSquare;
 }
 
 }  // namespace plm_vins

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/geometry/point_triangulation.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/symmetric_system.h"
 #include "vins_estimator/geometry/depth_limits.h"
 
 namespace plm_vins {
@@ -36,7 +36,7 @@ Eigen::Vector3d ClosestPoint(const std::vector<PosedPointObservation>& observati
     A += across;
     b += across * observation.T_W_C.translation;
   }
-  return A.ldlt().solve(b);
+  return SolveSymmetric(A, b);
 }
 
 // Refines the point by Gauss-Newton on the reprojection errors.
@@ -55,7 +55,7 @@ Eigen::Vector3d RefineOnImages(const std::vector<PosedPointObservation>& observa
       H += J.transpose() * J;
       g += J.transpose() * (p_C.hnormalized() - observation.xy);
     }
-    p_W -= H.ldlt().solve(g);
+    p_W -= SolveSymmetric(H, g);
   }
   return p_W;
 }

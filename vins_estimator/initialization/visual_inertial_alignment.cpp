@@ -6,6 +6,7 @@
 
 #include "common/format.h"
 #include "common/geometry/so3.h"
+#include "common/geometry/symmetric_system.h"
 #include "common/geometry/tangent_basis.h"
 
 namespace plm_vins {
@@ -136,7 +137,7 @@ std::optional<Eigen::Vector3d> EstimateGyroBias(
       H += weight * J.transpose() * m.information * J;
       g += weight * J.transpose() * m.information * error;
     }
-    gyro_bias -= H.ldlt().solve(g);
+    gyro_bias -= SolveSymmetric(H, g);
     covariance = H.inverse();
   }
   if (covariance.diagonal().maxCoeff() > std::pow(0.1 * kGyroBiasPrior, 2)) {

@@ -2,7 +2,8 @@
 #include "vins_estimator/output/run_report.h"
 
 #include <algorithm>
-#include <regex>
+#include <cctype>
+#include <sstream>
 
 #include "common/format.h"
 #include "common/measurements.h"
@@ -16,8 +17,15 @@ constexpr char kNoImage[] = "no usable image";
 
 // Returns the reason without its figures, which change from image to image.
 std::string Kind(const std::string& reason) {
-  static const std::regex figure(" [0-9]+([.][0-9]+)?");
-  return std::regex_replace(reason.substr(0, reason.find(": ")), figure, " N");
+  std::istringstream words(reason.substr(0, reason.find(": ")));
+  std::string kind;
+  for (std::string word; words >> word;) {
+    const size_t end = word.find_first_not_of("0123456789.");
+    const bool is_figure = std::isdigit(static_cast<unsigned char>(word[0])) != 0;
+    kind += (kind.empty() ? "" : " ");
+    kind += is_figure ? "N" + (end == std::string::npos ? "" : word.substr(end)) : word;
+  }
+  return kind;
 }
 
 }  // namespace

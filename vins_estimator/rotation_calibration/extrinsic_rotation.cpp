@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/rotation_calibration/extrinsic_rotation.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "common/format.h"
 #include "common/geometry/robust_weight.h"
 #include "common/geometry/so3.h"
+#include "common/geometry/symmetric_system.h"
 
 namespace plm_vins {
 namespace {
@@ -59,10 +60,12 @@ LinearSolution SolveLinear(const std::vector<RotationPair>& pairs,
     squares += weights[i] * M.transpose() * M;
     sum += weights[i];
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(squares);
+  // Eigenvalues and vectors of the symmetric matrix; Eigen's solver for these takes far longer to
+  // compile.
+  const Eigen::JacobiSVD<Eigen::Matrix4d> svd(squares, Eigen::ComputeFullV);
   LinearSolution solution;
-  solution.R_B_C = Eigen::Quaterniond(Eigen::Vector4d(solver.eigenvectors().col(0)));
-  solution.second_turn = std::sqrt(std::max(0.0, solver.eigenvalues()(1)) / sum);
+  solution.R_B_C = Eigen::Quaterniond(Eigen::Vector4d(svd.matrixV().col(3)));
+  solution.second_turn = std::sqrt(svd.singularValues()(2) / sum);
   return solution;
 }
 
@@ -141,7 +144,7 @@ void Refiner::Step(double tolerance) {
   // Rotations about one axis leave theta unobservable along it; a prior of ten radians keeps the
   // equations solvable.
   information_.topLeftCorner<3, 3>().diagonal().array() += 0.01;
-  const Vector6d step = -information_.ldlt().solve(gradient);
+  const Vector6d step = -SolveSymmetric(information_, gradient);
   R_B_C_ = (SO3Exp(step.head<3>()) * R_B_C_).normalized();
   bias_ += step.tail<3>();
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/format.h"
+#include "common/geometry/symmetric_system.h"
 #include "vins_estimator/structure_from_motion/relative_pose.h"
 
 namespace plm_vins {
@@ -22,6 +23,7 @@ constexpr double kMinDepth = 1e-3;  // in units of the first baseline
 constexpr int kBundleIterations = 12;
 constexpr double kBundleTolerance = 1e-2;  // coarse: the visual-inertial bundle refines it
 constexpr int kIntersectionIterations = 4;
+constexpr double kMinDeterminant = 1e-10;  // of the normal equations, whose trace is one
 
 // A line in G: all points origin + depth * direction (unit vector).
 struct Line {
@@ -47,9 +49,9 @@ std::optional<Eigen::Vector3d> IntersectLines(const std::vector<Line>& lines, do
       A += weight * across;
       b += weight * across * line.origin;
     }
-    const Eigen::LDLT<Eigen::Matrix3d> ldlt(A);
-    if (ldlt.rcond() < 1e-9) return std::nullopt;
-    point = ldlt.solve(b);
+    const double size = A.trace();
+    if (A.determinant() < kMinDeterminant * size * size * size) return std::nullopt;
+    point = SolveSymmetric(A, b);
   }
   return point;
 }

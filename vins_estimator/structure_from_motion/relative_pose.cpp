@@ -9,6 +9,7 @@
 
 #include "common/geometry/epipolar_constraint.h"
 #include "common/geometry/so3.h"
+#include "common/geometry/symmetric_system.h"
 #include "common/geometry/tangent_basis.h"
 #include "common/median.h"
 #include "common/opencv_version.h"
@@ -120,7 +121,7 @@ void PoseRefiner::Step(RelativePose* pose) const {
                                                              H.bottomLeftCorner<2, 3>();
   H.topLeftCorner<3, 3>() += Eigen::Matrix3d::Identity() / (kGyroDeviation * kGyroDeviation);
   g.head<3>() += GyroError(*pose) / kGyroDeviation;
-  const Vector5d step = -H.ldlt().solve(g);
+  const Vector5d step = -SolveSymmetric(H, g);
   pose->R_now_then = (SO3Exp(step.head<3>()) * pose->R_now_then).normalized();
   pose->t_now_then = (pose->t_now_then + B * step.tail<2>()).normalized();
 }

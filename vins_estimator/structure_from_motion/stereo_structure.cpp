@@ -6,6 +6,7 @@
 
 #include "common/format.h"
 #include "common/geometry/so3.h"
+#include "common/geometry/symmetric_system.h"
 #include "vins_estimator/geometry/depth_limits.h"
 #include "vins_estimator/geometry/point_triangulation.h"
 
@@ -134,7 +135,7 @@ bool Builder::Resect(int view, int neighbor, std::string* reason) {
   Resection equations;
   for (int i = 0; i < kResectionIterations; ++i) {
     equations = Linearize(view);
-    const Vector6d step = -equations.H.ldlt().solve(equations.g);
+    const Vector6d step = -SolveSymmetric(equations.H, equations.g);
     if (!step.allFinite()) break;
     T_G_B.translation += step.head<3>();
     T_G_B.rotation = (T_G_B.rotation * SO3Exp(step.tail<3>())).normalized();

@@ -80,6 +80,11 @@ TEST(SO3, ShortestRotationTurnsOneDirectionIntoTheOther) {
   EXPECT_NEAR(SO3Log(q).dot(from), 0, 1e-13);  // the axis is perpendicular to both
 }
 
+TEST(SO3, ShortestRotationTurnsADirectionIntoItsOpposite) {
+  const Eigen::Vector3d from(1, 2, -0.5);
+  EXPECT_MATRIX_NEAR(ShortestRotation(from, -2 * from) * from, -from, 1e-14);
+}
+
 TEST(SO3, YawIsTheHeading) {
   const Eigen::Quaterniond heading = SO3Exp({0, 0, 0.8});
   EXPECT_NEAR(Yaw(heading), 0.8, 1e-15);

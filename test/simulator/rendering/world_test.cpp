@@ -67,8 +67,8 @@ TEST_P(EachWorld, LeavesTheFlightBoxFreeAndSurroundsItWithoutAHole) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Worlds, EachWorld,
-                         testing::Values(WorldKind::kRoom, WorldKind::kCorridor, WorldKind::kHall,
-                                         WorldKind::kTwins, WorldKind::kIrregular));
+                         testing::Values(WorldKind::kRoom, WorldKind::kCorridor, WorldKind::kTwins,
+                                         WorldKind::kIrregular));
 
 // Total length of all horizontal edges of vertical rectangles by heading modulo 90 deg, in bins of
 // 1 deg, as shares of their sum.

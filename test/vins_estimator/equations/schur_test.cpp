@@ -68,7 +68,8 @@ TEST(MarginalizeFirst, FilteringEqualsTheBatchSolution) {
   batch << early, MatrixXd::Zero(10, 2), late;
   VectorXd batch_r(22);
   batch_r << early_r, late_r;
-  const VectorXd expected = batch.colPivHouseholderQr().solve(batch_r);
+  const Quadratic all = LeastSquares(batch, batch_r);
+  const VectorXd expected = -all.H.ldlt().solve(all.b);
 
   const Quadratic prior = MarginalizeFirst(LeastSquares(early, early_r), 2);
   const Quadratic update = LeastSquares(late, late_r);
@@ -103,13 +104,14 @@ TEST(MarginalizeFirst, TakesSemiDefiniteBlocks) {
   for (uint64_t seed = 1; seed <= 50; ++seed) {
     simulator::Random random(seed);
     MatrixXd J = RandomMatrix(12, 8, &random);
-    J.leftCols(4) = RandomMatrix(12, 2, &random) * RandomMatrix(2, 4, &random);  // rank two
+    const MatrixXd left = RandomMatrix(12, 2, &random), right = RandomMatrix(2, 4, &random);
+    J.leftCols(4) = left * right;  // rank two
     const Quadratic all = LeastSquares(J, RandomMatrix(12, 1, &random));
     const Quadratic kept = MarginalizeFirst(all, 4);
     const MatrixXd H_rm = all.H.bottomLeftCorner(4, 4);
-    const MatrixXd inverse =
-        J.leftCols(4).completeOrthogonalDecomposition().pseudoInverse() *
-        J.leftCols(4).completeOrthogonalDecomposition().pseudoInverse().transpose();
+    // The pseudoinverse of H_mm.
+    const MatrixXd P = (right * right.transpose()).inverse() * right;
+    const MatrixXd inverse = P.transpose() * (left.transpose() * left).inverse() * P;
     EXPECT_MATRIX_NEAR(kept.H, all.H.bottomRightCorner(4, 4) - H_rm * inverse * H_rm.transpose(),
                        1e-8);
     EXPECT_MATRIX_NEAR(kept.b, all.b.tail(4) - H_rm * inverse * all.b.head(4), 1e-8);

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/geometry/symmetric_system.h"
+
+#include <gtest/gtest.h>
+
+#include "test/testing/numeric_jacobian.h"
+
+namespace plm_vins {
+namespace {
+
+template <int kSize>
+void ExpectSolution() {
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  Matrix root = Matrix::Identity();
+  root.row(kSize - 1).setLinSpaced(-0.7, 1.9);
+  const Matrix A = root.transpose() * root;
+  const Vector x = Vector::LinSpaced(1, -2), b = A * x;
+  EXPECT_MATRIX_NEAR(SolveSymmetric(A, b), x, 1e-12);
+}
+
+TEST(SymmetricSystem, IsSolvedForEverySize) {
+  ExpectSolution<3>();
+  ExpectSolution<5>();
+  ExpectSolution<6>();
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -23,6 +23,15 @@ namespace plm_vins {
 namespace {
 
 constexpr char kJumpedBack[] = "timestamps jumped back";
+constexpr char kUnfeltBeforeStart[] =
+    "constant speed: scale not observable yet, as the camera sees motion that the IMU does not "
+    "feel: accelerate; or something that moves fills the view (a train, the deck of a ship), or "
+    "the "
+    "IMU does not belong to this camera; meanwhile the images start no estimate";
+constexpr char kUnfeltInFlight[] =
+    "the camera sees motion that the IMU does not feel: something that moves fills the view (a "
+    "train, the deck of a ship), or the IMU does not belong to this camera; meanwhile the images "
+    "move no estimate";
 
 // Standard deviations that stand for findings without any: what the data state themselves, and what
 // other causes may show as well.
@@ -178,6 +187,7 @@ std::string EstimationStage::ImuContradiction() const {
   using Rotations = ContradictionEvidence::Rotations;
   if (world_->rotation_checks.front().agrees()) evidence.rotations = Rotations::kAgree;
   if (!FindRotationFault().text.empty()) evidence.rotations = Rotations::kExplained;
+  evidence.camera_rests = estimator_->FeelsUnseenMotion();
   return DescribeContradiction(evidence);
 }
 
@@ -205,11 +215,7 @@ RankedFinding EstimationStage::FindInputFault() const {
   const RankedFinding lengths = {lengths_->Finding(), lengths_->Contradiction()};
   const RankedFinding& worst = rotations.sigmas >= lengths.sigmas ? rotations : lengths;
   if (!worst.text.empty() || !estimator_->SeesUnfeltMotion()) return worst;
-  return {
-      "the camera sees motion that the IMU does not feel: something that moves fills the view "
-      "(a train, the deck of a ship), or the IMU does not belong to this camera; meanwhile the "
-      "images move no estimate and start none",
-      kUnfeltMotion};
+  return {world_->newest.has_pose ? kUnfeltInFlight : kUnfeltBeforeStart, kUnfeltMotion};
 }
 
 // One mistake in the convention of several transforms is named once. If the first one is inverted,

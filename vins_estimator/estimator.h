@@ -40,6 +40,9 @@ class Estimator {
   // Returns whether the images have shown motion for long that the IMU does not measure.
   bool SeesUnfeltMotion() const { return world_.unfelt_motion.IsLong(); }
 
+  // Returns whether the corners rest in the newest images while the IMU shows motion.
+  bool FeelsUnseenMotion() const { return world_.standstill_detector.feels_unseen_motion(); }
+
   // Current estimate of the time offset td [s], with which MeasurementSync should cut the IMU
   // samples.
   double time_offset() const { return world_.odometry.window().td; }

@@ -10,6 +10,11 @@
 #include "vins_estimator/uncertainty/state_covariance.h"
 
 namespace plm_vins {
+namespace {
+
+constexpr double kNewStart = 1.5;  // [s]
+
+}  // namespace
 
 WindowOdometry::WindowOdometry(const Config& config, const EstimatorOptions& options)
     : config_(&config), options_(&options), optimizer_(config, options) {}
@@ -19,6 +24,7 @@ EstimatorOutput WindowOdometry::Start(const InitializationResult& result,
   Fill(result, uncertainty);
   const Step step = optimizer_.SolveFirst();
   started_ = true;
+  start_ns_ = window().newest().state.t_ns;
   depth_evidence_.Begin(window().newest().state.position(), !result.from_standstill);
   return Describe(step);
 }
@@ -47,7 +53,7 @@ WindowOdometry::Tracked WindowOdometry::Track(
   bool keep_second_newest = IsKeyframe(options_->keyframes, map.window, map.points);
   EstimateMonitor::Evidence evidence;
   evidence.predicted = optimizer_.AddFrame(measurement);
-  map.window.SetStillSince(StillSince(standstill));
+  SetStandstill(standstill);
   keep_second_newest |= EndsStandstill(options_->keyframes, map.window);
   if (keep_second_newest) optimizer_.BeginKeyframe(map.window.second_newest().state.t_ns);
   const Step step = optimizer_.Solve(keep_second_newest, estimate_monitor_.blind());
@@ -77,12 +83,21 @@ WindowOdometry::Tracked WindowOdometry::Track(
   return tracked;
 }
 
-// If corners move together, the body moves, although too slowly for the IMU to show it. Declaring
-// it still would leave its acceleration to the bias of the accelerometer.
-std::optional<int64_t> WindowOdometry::StillSince(
-    const std::optional<StandstillDetector::Standstill>& standstill) const {
-  if (!standstill || standstill->common_px > options_->max_motion_at_rest_px) return std::nullopt;
-  return standstill->since_ns;
+// Known depths constrain a slow motion better than standstill does. Without, standstill is safer.
+// Shortly after a start it is less certain if the corners move together: the bias of the
+// accelerometer is hardly known yet, and would absorb a slow take-off.
+void WindowOdometry::SetStandstill(
+    const std::optional<StandstillDetector::Standstill>& standstill) {
+  SlidingWindow& window = optimizer_.mutable_estimate()->map.window;
+  const bool moves = standstill && standstill->common_px > options_->max_motion_at_rest_px;
+  if (!standstill || (moves && MedianDepth())) {
+    window.SetStillSince(std::nullopt);
+    return;
+  }
+  const double duration = ToSeconds(window.newest().state.t_ns - standstill->since_ns);
+  const double flow = standstill->common_px / options_->focal_length / duration;
+  const bool is_new = ToSeconds(window.newest().state.t_ns - start_ns_) < kNewStart;
+  window.SetStillSince(standstill->since_ns, moves && is_new ? flow : 0);
 }
 
 // Returns none before the window is full: then its middle is another frame at each keyframe.

@@ -61,9 +61,8 @@ class WindowOdometry {
   using Step = WindowOptimizer::Step;
 
   void Fill(const InitializationResult& result, const InitialUncertainty& uncertainty);
-  // Returns the time of the image at which standstill began; nullopt in motion, even if slow.
-  std::optional<int64_t> StillSince(
-      const std::optional<StandstillDetector::Standstill>& standstill) const;
+  // Declares the newest frame stationary, or moving, even if slowly.
+  void SetStandstill(const std::optional<StandstillDetector::Standstill>& standstill);
   std::vector<std::vector<PixelResidual>> MiddleResiduals() const;
   DepartedLandmarks SlideWindow(bool keep_second_newest);
   DepartedLandmarks SlideOldest();
@@ -74,6 +73,7 @@ class WindowOdometry {
   const Config* config_;
   const EstimatorOptions* options_;
   bool started_ = false;
+  int64_t start_ns_ = 0;  // time of the first pose
   DepthEvidence depth_evidence_;
   WindowOptimizer optimizer_;
   EstimateMonitor estimate_monitor_;

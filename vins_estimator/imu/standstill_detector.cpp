@@ -85,14 +85,20 @@ std::optional<StandstillDetector::Standstill> StandstillDetector::Add(
   confirmed_.Add(measurement);
   points_.push_back(measurement.points);
   while (points_.size() > imu_.images()) points_.pop_front();
-  doubts_camera_ = sees_unfelt_motion_ = false;
-  if (!imu_.IsQuiet()) {
+  doubts_camera_ = sees_unfelt_motion_ = feels_unseen_motion_ = false;
+  if (points_.empty()) {
     confirmed_.Reset();
     return std::nullopt;
   }
   const CornerMotions corners = MotionsBetween(points_.front(), points_.back());
   const bool sees = static_cast<int>(corners.motions.size()) >= options_.min_points;
-  if (sees && MedianDistance(corners.motions) <= options_.max_motion_px) {
+  const bool rests = sees && MedianDistance(corners.motions) <= options_.max_motion_px;
+  if (!imu_.IsQuiet()) {
+    feels_unseen_motion_ = rests && imu_.IsKnown();
+    confirmed_.Reset();
+    return std::nullopt;
+  }
+  if (rests) {
     confirmed_.Confirm();
     seen_ = Seen::kStandstill;
     confirmed_ns_ = measurement.t_ns;
@@ -129,7 +135,7 @@ bool StandstillDetector::IsOfScene(double motion, std::optional<double> depth) c
 
 void StandstillDetector::Reset() {
   imu_.Reset();
-  doubts_camera_ = sees_unfelt_motion_ = false;
+  doubts_camera_ = sees_unfelt_motion_ = feels_unseen_motion_ = false;
   confirmed_.Reset();
   points_.clear();
 }

@@ -55,6 +55,10 @@ class StandstillDetector {
   // Returns whether the corners move while the IMU shows its noise alone.
   bool sees_unfelt_motion() const { return sees_unfelt_motion_; }
 
+  // Returns whether the corners rest while the IMU shows motion: in a lift or a vehicle, the view
+  // moves along.
+  bool feels_unseen_motion() const { return feels_unseen_motion_; }
+
   void Reset();
 
  private:
@@ -68,7 +72,7 @@ class StandstillDetector {
   enum class Seen { kStandstill, kMotion, kMovingScene };
   Seen seen_ = Seen::kStandstill;
   int64_t confirmed_ns_ = 0;  // the newest image that confirmed the standstill
-  bool doubts_camera_ = false, sees_unfelt_motion_ = false;
+  bool doubts_camera_ = false, sees_unfelt_motion_ = false, feels_unseen_motion_ = false;
   std::deque<PointFrame> points_;  // points of the images in the window
 };
 

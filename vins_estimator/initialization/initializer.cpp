@@ -204,6 +204,10 @@ std::optional<InitializationResult> Initializer::TryMotion() {
   last_attempt_ns_ = now_ns;
   MotionInitializerOptions options;
   options.stereo = has_depth_;
+  // A short start relies on the prior of the bias, which a larger bias contradicts.
+  if (ToSeconds(now_ns - buffer_.front().t_ns) < kMinUnfeltDuration) {
+    options.max_accel_bias = std::min(options.max_accel_bias, 2 * sensor_.accel_bias_deviation);
+  }
   options.camera = BusiestCamera(buffer_.back().points, sensor_.cameras.size());
   std::vector<FrameMeasurement> frames = JoinFrames(buffer_, SelectFrames(buffer_, max_frames_));
   auto states = InitializeFromMotion(frames, sensor_, point_noise_px_, options, &reason_);

@@ -54,13 +54,15 @@ TimedDepth SlidingWindow::DepthIn(const ImageKey& image, double depth) const {
   return {depth, (T_W_C(image).rotation.conjugate() * state.velocity()).z()};
 }
 
-void SlidingWindow::SetStillSince(std::optional<int64_t> still_since_ns) {
+void SlidingWindow::SetStillSince(std::optional<int64_t> still_since_ns, double flow) {
   newest().stationary = still_since_ns.has_value();
+  newest().flow_at_rest = flow;
   newest().moving_since_ns = second_newest().state.t_ns;
   if (!still_since_ns) return;
   for (size_t i = frames.size() - 1; i > 0; --i) {
     if (frames[i - 1].moving_since_ns < *still_since_ns) return;
     frames[i - 1].stationary = true;
+    frames[i - 1].flow_at_rest = std::max(frames[i - 1].flow_at_rest, flow);
   }
 }
 

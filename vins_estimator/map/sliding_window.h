@@ -25,6 +25,7 @@ struct WindowFrame {
   // Preintegrated IMU since the previous frame in the window; null in the first frame.
   std::shared_ptr<Preintegration> motion_since_previous;
   bool stationary = false;      // at standstill since the previous frame
+  double flow_at_rest = 0;      // of the corners, if they move together all the same [1/s]
   int64_t moving_since_ns = 0;  // if moving: time of the last image before the motion
 };
 
@@ -81,8 +82,9 @@ struct SlidingWindow {
   TimedDepth DepthIn(const ImageKey& image, double depth) const;
 
   // Sets when standstill began, up to the newest frame, which was just added; nullopt if moving.
-  // May reclassify the previous frame as stationary.
-  void SetStillSince(std::optional<int64_t> still_since_ns);
+  // May reclassify the previous frame as stationary. `flow` is that of all corners since then,
+  // which limits the certainty of the standstill.
+  void SetStillSince(std::optional<int64_t> still_since_ns, double flow = 0);
 
   // Returns whether any frame is stationary.
   bool HasStationary() const;

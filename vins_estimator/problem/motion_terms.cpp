@@ -8,6 +8,11 @@
 #include "vins_estimator/factors/zero_velocity_factor.h"
 
 namespace plm_vins {
+namespace {
+
+constexpr double kUnknownDepth = 10;  // [m], of a scene at standstill: rather too large
+
+}  // namespace
 
 void MotionTerms::Add(size_t index) {
   const WindowFrame& from = window_->frames[index - 1];
@@ -19,11 +24,12 @@ void MotionTerms::Add(size_t index) {
                     {pose_i, motion_i, pose_j, motion_j});
   if (!to.stationary) return;
   const double interval = ToSeconds(to_ns - from_ns);
-  const double velocity = std::max(options_->standstill_velocity, options_->passing_velocity);
-  const double position =
-      std::max(options_->standstill_position, options_->passing_velocity * interval);
-  const double rotation =
-      std::max(options_->standstill_rotation, options_->passing_turn_rate * interval);
+  const double passing_velocity =
+      std::max(options_->passing_velocity, to.flow_at_rest * kUnknownDepth);
+  const double turn_rate = std::max(options_->passing_turn_rate, to.flow_at_rest);
+  const double velocity = std::max(options_->standstill_velocity, passing_velocity);
+  const double position = std::max(options_->standstill_position, passing_velocity * interval);
+  const double rotation = std::max(options_->standstill_rotation, turn_rate * interval);
   problem_->AddTerm(ZeroVelocityFactor(velocity), nullptr, {motion_j});
   problem_->AddTerm(SamePoseFactor(position, rotation), nullptr, {pose_i, pose_j});
 }

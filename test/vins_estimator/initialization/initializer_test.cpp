@@ -155,6 +155,21 @@ TEST(InitializerTest, StandstillIsEnough) {
   EXPECT_LT(testing::GravityError(state, flight.truth[start->index]), 0.012);
 }
 
+TEST(InitializerTest, HalfASecondIsNoStandstillIfCornersMoveTogether) {
+  for (const double drift_px : {0.0, 0.05}) {  // per image
+    SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kStill, 1));
+    for (size_t i = 0; i < flight.frames.size(); ++i) {
+      for (PointObservation& point : flight.frames[i].points.points) {
+        point.uv_px.x() += drift_px * static_cast<double>(i);
+      }
+    }
+    Initializer initializer(ConfigFor(flight));
+    const auto start = Feed(flight, &initializer);
+    ASSERT_TRUE(start) << initializer.reason();
+    EXPECT_EQ(start->index < 14, drift_px == 0) << start->index;
+  }
+}
+
 // A tenth of a second on the ground is too short for a start from standstill, and must not disturb
 // the start in motion.
 TEST(InitializerTest, StartsFromMotionAfterAStillPart) {

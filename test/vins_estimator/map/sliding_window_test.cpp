@@ -113,9 +113,11 @@ TEST(SlidingWindow, NextFrameMayMarkAFrameAsStationary) {
   for (const bool far_enough_back : {false, true}) {
     window = moving;
     window.frames.push_back(MakeWindow(4).newest());
-    window.SetStillSince(kInterval + (far_enough_back ? 0 : 1));
+    window.SetStillSince(kInterval + (far_enough_back ? 0 : 1), 0.1);
     EXPECT_TRUE(window.newest().stationary);
+    EXPECT_EQ(window.newest().flow_at_rest, 0.1);
     EXPECT_EQ(window.second_newest().stationary, far_enough_back);
+    EXPECT_EQ(window.second_newest().flow_at_rest, far_enough_back ? 0.1 : 0);
   }
 }
 

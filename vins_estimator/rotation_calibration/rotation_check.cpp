@@ -91,12 +91,13 @@ void RotationCheck::Add(const FrameMeasurement& measurement, bool in_doubt) {
 }
 
 bool RotationCheck::FindGrossError(const Eigen::Quaterniond& R_B_C) {
-  mounting_ = ExplainByMounting(pairs_, R_B_C);
+  const auto mounting = ExplainByMounting(pairs_, R_B_C);
+  if (mounting) mounting_ = mounting;
   std::string reason;
   const auto calibrated = CalibrateExtrinsicRotation(pairs_, ExtrinsicRotationOptions(), &reason);
-  const double error = calibrated  ? calibrated->angularDistance(R_B_C)
-                       : mounting_ ? std::abs(mounting_->angle)
-                                   : 0;
+  const double error = calibrated ? calibrated->angularDistance(R_B_C)
+                       : mounting ? std::abs(mounting->angle)
+                                  : 0;
   if (error < kMaxExtrinsicsError) return false;
   const std::string key = camera_ == 0 ? "extrinsicRotation" : TransformKey(camera_);
   finding_ = {Format("%s is wrong by %.0f deg%s: ", key.c_str(), ToDegrees(error), kBy) +
@@ -121,6 +122,7 @@ void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
   // A gross error lasts while the rotations tell too little.
   if (fit.cause == Cause::kUnknown && mounting_was_wrong_) return;
   mounting_was_wrong_ = false;
+  mounting_.reset();
   finding_ = {};
   if (!IsRefined(fit)) {
     finding_ = {Describe(fit), kSigmas * std::abs(fit.amount) / LeastAmount(fit.cause)};

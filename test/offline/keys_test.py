@@ -34,19 +34,24 @@ REASONS = {
     "line_anchors": "no line returns within seconds",
     "acc_range": "the flight stays far below", "gyr_range": "the flight stays far below",
     "max_num_iterations": "fewer are needed",
+    "stamp_tolerance": "depth has the stamps of the images",
+    "adapt_imu_noise": "the noise is as configured",
+    "line_merge_angle": "other limits decide in this flight",
+    "manhattan_constraints": "the axes are found after more seconds",
+    "manhattan_noise": "the axes are found after more seconds",
 }
 # Other keys that one needs to have an effect.
 NEEDS = {
     "rolling_shutter_tr": ["rolling_shutter=1"], "rolling_shutter": ["rolling_shutter_tr=0.01"],
     **dict.fromkeys(("focal_length_deviation", "principal_point_deviation",
                      "distortion_deviation"), ["estimate_intrinsics=1"]),
-    "depth_noise": [], "depth_max": [], "depth_unit": [],
 }
 # Values that are as good as others where the rule of other_value() is not.
-VALUES = {"num_of_cam": None, "image_topic": None, "imu_topic": None, "depth_topic": "none",
+VALUES = {"num_of_cam": None, "image_topic": None, "imu_topic": None, "depth_topic": "",
           "model_type": None, "image_width": None, "image_height": None,
           "imu_noise_model": "vins", "fisheye_mask": None, "depth_max": 2.5, "td": 0.004,
-          "estimate_extrinsic": 1, "g_norm": 9.8, "window_size": 8}
+          "estimate_extrinsic": 1, "g_norm": 9.8, "window_size": 8, "rolling_shutter_tr": 0.015,
+          "line_outlier_distance": 0.5, "line_merge_image_distance": 0.5}
 KEY = re.compile(r"^( *)(\w+):(?: +(\S+))? *(?:#(.*))?$")
 
 
@@ -87,8 +92,7 @@ class Keys(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         folder = pathlib.Path(cls.folder.name)
         cls.config = folder / "config.yaml"
-        text = REFERENCE.read_text(encoding="utf-8").replace("imu_noise_model: continuous",
-                                                             "imu_noise_model: continuous", 1)
+        text = REFERENCE.read_text(encoding="utf-8")
         cls.config.write_text(text.replace('depth_topic: ""', 'depth_topic: "/depth"', 1)
                               .replace("fisheye: 0", "fisheye: 1", 1), encoding="utf-8")
         cls.flight = folder / "flight"

@@ -13,7 +13,7 @@
 
 namespace plm_vins {
 
-// Observation of a keyframe that the map does not keep: by another camera than the first, or with a
+// Observation of a keyframe that the map may not keep: by another camera than the first, or with a
 // measured depth.
 struct KeyframeObservation {
   int64_t track = -1;

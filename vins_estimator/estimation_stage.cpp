@@ -26,8 +26,7 @@ constexpr char kJumpedBack[] = "timestamps jumped back";
 constexpr char kUnfeltBeforeStart[] =
     "constant speed: scale not observable yet, as the camera sees motion that the IMU does not "
     "feel: accelerate; or something that moves fills the view (a train, the deck of a ship), or "
-    "the "
-    "IMU does not belong to this camera; meanwhile the images start no estimate";
+    "the IMU does not belong to this camera; meanwhile the images start no estimate";
 constexpr char kUnfeltInFlight[] =
     "the camera sees motion that the IMU does not feel: something that moves fills the view (a "
     "train, the deck of a ship), or the IMU does not belong to this camera; meanwhile the images "
@@ -51,17 +50,6 @@ constexpr double kContradictingNoise = 2.5;
 // Returns whether the estimated noise is at its upper limit.
 bool IsAtLimit(double density, double configured_density) {
   return density > 0.999 * kMostNoise * configured_density;
-}
-
-// Returns the first text of the cameras' monitors that is not empty, with the camera's number.
-template <typename Monitor>
-std::string FirstOf(const std::vector<Monitor>& monitors,
-                    const std::string& (Monitor::*text)() const) {
-  for (size_t i = 0; i < monitors.size(); ++i) {
-    const std::string& found = (monitors[i].*text)();
-    if (!found.empty()) return i == 0 ? found : Format("camera %zu: ", i) + found;
-  }
-  return "";
 }
 
 MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) {
@@ -252,7 +240,12 @@ void EstimationStage::CheckRotations(const FrameMeasurement& measurement,
 }
 
 std::string EstimationStage::LensWarning() const {
-  return FirstOf<LensMonitor>(estimator_->lenses(), &LensMonitor::warning);
+  const std::vector<LensMonitor>& lenses = estimator_->lenses();
+  for (size_t i = 0; i < lenses.size(); ++i) {
+    const std::string& warning = lenses[i].warning();
+    if (!warning.empty()) return i == 0 ? warning : Format("camera %zu: ", i) + warning;
+  }
+  return "";
 }
 
 std::vector<ResidualRing> EstimationStage::ResidualRings() const {

@@ -14,6 +14,11 @@ struct ImuNoise {
   double accel_walk = 3.0e-3;     // bias random walk [m/s^3/sqrt(Hz)]
 };
 
+// Relative standard deviation of the scale factor of an accelerometer: real ones are off by 0.5 to
+// 1 %. It is not estimated, but considered in what the IMU says of lengths (a consider parameter,
+// [Schmidt1966]).
+constexpr double kAccelScaleDeviation = 0.0075;
+
 // Scales the variance of the white noise; the bias random walks are unchanged.
 inline ImuNoise Scaled(const ImuNoise& noise, double variance_scale) {
   const double scale = std::sqrt(variance_scale);

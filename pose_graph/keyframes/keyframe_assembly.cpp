@@ -13,7 +13,6 @@ namespace {
 constexpr size_t kFewStamps = 60;
 constexpr size_t kMaxStamps = 300;
 constexpr int64_t kMaxAge_ns = 2'000'000'000;
-constexpr int64_t kSameTime_ns = 2'000'000;
 
 }  // namespace
 
@@ -102,8 +101,8 @@ std::optional<OdometryFrame> KeyframeAssembly::Pop() {
 // Drops older images.
 void KeyframeAssembly::TakeFurtherImages(OdometryFrame* frame) {
   for (auto& [camera, images] : further_images_) {
-    while (!images.empty() && images.front().t_ns < frame->t_ns - kSameTime_ns) images.pop_front();
-    if (images.empty() || images.front().t_ns > frame->t_ns + kSameTime_ns) continue;
+    while (!images.empty() && images.front().t_ns < frame->t_ns - tolerance_ns_) images.pop_front();
+    if (images.empty() || images.front().t_ns > frame->t_ns + tolerance_ns_) continue;
     frame->images[camera] = {images.front().gray, images.front().owner};
   }
 }

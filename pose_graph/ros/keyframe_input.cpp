@@ -39,7 +39,8 @@ void CountFailure(DropCount* failures, const std::function<void()>& take) {
 
 }  // namespace
 
-KeyframeInput::KeyframeInput(const SensorConfig& sensor) : sensor_(sensor) {
+KeyframeInput::KeyframeInput(const SensorConfig& sensor)
+    : sensor_(sensor), assembly_(sensor.stamp_tolerance) {
   const std::vector<StereoPair> pairs = StereoPairs(sensor);
   for (int camera = 0; camera < static_cast<int>(sensor.cameras.size()); ++camera) {
     if (IsTracked(camera, pairs)) cameras_.push_back(camera);

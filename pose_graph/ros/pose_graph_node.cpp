@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/append.h"
+#include "common/ros/camera_names.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/parameter.h"
@@ -141,16 +142,15 @@ void PoseGraphNode::Subscribe() {
 
 void PoseGraphNode::SubscribeToCameras() {
   for (const int camera : input_.cameras()) {
-    const std::string number = camera == 0 ? "" : std::to_string(camera);
     const boost::function<void(const sensor_msgs::CameraInfo&)> refine =
         [this, camera](const auto& message) { TakeIn([&] { input_.AddCamera(camera, message); }); };
     const boost::function<void(const nav_msgs::Odometry&)> move = [this,
                                                                    camera](const auto& message) {
       TakeIn([&] { input_.AddExtrinsics(camera, message); });
     };
-    subscribers_.push_back(Receive(kEstimator + ("camera_info" + number), refine));
-    subscribers_.push_back(Receive(kEstimator + ("extrinsic" + number), move));
-    const std::string name = camera == 0 ? "images" : "camera" + number + "_images";
+    subscribers_.push_back(Receive(kEstimator + NameOfCamera("camera_info", camera), refine));
+    subscribers_.push_back(Receive(kEstimator + NameOfCamera("extrinsic", camera), move));
+    const std::string name = camera == 0 ? "images" : "camera" + std::to_string(camera) + "_images";
     image_subscriptions_.push_back(std::make_unique<ImageSubscription>(name));
     image_subscriptions_.back()->Subscribe(receiver_, private_node_,
                                            config_.sensor.cameras[camera].image_topic, kQueue,

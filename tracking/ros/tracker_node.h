@@ -19,6 +19,7 @@
 #include "common/append.h"
 #include "common/config/config.h"
 #include "common/finding.h"
+#include "common/ros/camera_names.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/image_subscription.h"
@@ -62,9 +63,8 @@ class TrackerNode {
         private_node_.advertise<sensor_msgs::PointCloud>(Traits::kFeatureTopic, kOutputQueue);
     restart_publisher_ = private_node_.advertise<std_msgs::Bool>("restart", 10);
     for (const int camera : stage_.tracked_cameras()) {
-      const std::string suffix = camera == 0 ? "" : std::to_string(camera);
       annotated_publishers_.push_back(
-          private_transport_.advertise(Traits::kAnnotatedTopic + suffix, 10));
+          private_transport_.advertise(NameOfCamera(Traits::kAnnotatedTopic, camera), 10));
     }
     flush_timer_ = node_.createWallTimer(ros::WallDuration(0.1 * kMaxWaitForImu),
                                          [this](const ros::WallTimerEvent&) { FlushLateImages(); });

@@ -8,6 +8,7 @@
 
 #include "common/camera/camera_model.h"
 #include "common/imu/imu_gap.h"
+#include "common/imu/imu_noise.h"
 #include "vins_estimator/initialization/visual_inertial_alignment.h"
 #include "vins_estimator/lengths/length_likelihood.h"
 #include "vins_estimator/structure_from_motion/frame_selection.h"
@@ -29,8 +30,6 @@ constexpr int kRefinements = 4;
 constexpr double kWrong = 5;            // standard deviations
 constexpr double kLargestError = 0.05;  // of a calibrated length, relative
 constexpr int kContradictions = 2;
-// Relative deviation of the scale factor of an accelerometer: real ones are off by 0.5 to 1 %.
-constexpr double kAccelScaleDeviation = 0.0075;
 // Deviation of the gyro's bias that is estimated from the images, times their duration [rad].
 constexpr double kGyroBiasByTime = 0.002;
 // Deviations of a ratio that needs no more evidence: if it fits, and if it does not.

@@ -22,8 +22,7 @@ constexpr char kChecksOfTranslation[] =
     "moving objects, extrinsicTranslation, parts of the image that never move";
 constexpr char kUnseenMotion[] =
     "; the corners rest in the image: the camera sees no motion that the IMU feels, because the "
-    "view "
-    "moves along (in a lift or a vehicle), or because the IMU is not fixed to the camera";
+    "view moves along (in a lift or a vehicle), or because the IMU is not fixed to the camera";
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 
 #include "common/append.h"
 #include "common/ros/camera_info_conversion.h"
+#include "common/ros/camera_names.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/keyframe_conversion.h"
 #include "common/ros/publish_if_wanted.h"
@@ -55,10 +56,10 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, int cameras,
       keyframe_point_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_point", kQueue)),
       keyframe_pose_(private_node.advertise<nav_msgs::Odometry>("keyframe_pose", kQueue)) {
   for (int camera = 0; camera < cameras; ++camera) {
-    const std::string number = camera == 0 ? "" : std::to_string(camera);
-    extrinsics_.push_back(private_node.advertise<nav_msgs::Odometry>("extrinsic" + number, kQueue));
+    extrinsics_.push_back(
+        private_node.advertise<nav_msgs::Odometry>(NameOfCamera("extrinsic", camera), kQueue));
     camera_infos_.push_back(
-        private_node.advertise<sensor_msgs::CameraInfo>("camera_info" + number, 10));
+        private_node.advertise<sensor_msgs::CameraInfo>(NameOfCamera("camera_info", camera), 10));
   }
   if (frames.publish_tf && !frames.base_frame.empty()) {
     base_.emplace(frames.body_frame, frames.base_frame);
@@ -176,7 +177,7 @@ void OutputPublisher::PublishPath(const FrameState& state) {
 }
 
 std::string OutputPublisher::CameraFrame(size_t camera) const {
-  return camera == 0 ? frames_.camera_frame : frames_.camera_frame + std::to_string(camera);
+  return NameOfCamera(frames_.camera_frame, static_cast<int>(camera));
 }
 
 void OutputPublisher::PublishTransforms(const EstimatorOutput& output) {

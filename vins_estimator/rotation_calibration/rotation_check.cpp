@@ -51,8 +51,7 @@ std::string Describe(const RotationFit& fit) {
 std::string DescribeMounting(const std::optional<MountingError>& error) {
   if (!error) {
     return "is it the inverse, or of an image that is turned? estimate_extrinsic: 2 finds the "
-           "right "
-           "one";
+           "right one";
   }
   if (error->kind == MountingError::Kind::kInverse) {
     return "its inverse fits; give the camera in the IMU frame (T_imu_cam), not the IMU in the "

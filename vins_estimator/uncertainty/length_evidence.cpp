@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/imu/imu_noise.h"
 #include "vins_estimator/factors/manifolds.h"
 
 namespace plm_vins {
@@ -13,11 +14,7 @@ namespace {
 constexpr int kDepthScale = 0, kDepthDelay = 1;  // indices in a depth stream
 constexpr double kMaxDeviation = 0.05;           // relative; evidence is ignored beyond it
 constexpr double kMinSignificance = 3.0;         // in standard deviations
-// Relative standard deviation of the scale factor of an accelerometer; real ones are off by 0.5 to
-// 1 %. It is not estimated, but considered in what the evidence is worth (a consider parameter,
-// [Schmidt1966]).
-constexpr double kAccelScaleDeviation = 0.0075;
-constexpr double kMinDelay = 0.005;  // [s]
+constexpr double kMinDelay = 0.005;              // [s]
 
 std::optional<LengthEvidence> IfSignificant(const std::optional<LengthEvidence>& evidence) {
   return evidence && IsSignificant(*evidence) ? evidence : std::nullopt;

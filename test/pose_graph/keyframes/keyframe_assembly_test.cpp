@@ -32,7 +32,7 @@ class KeyframeAssemblyTest : public ::testing::Test {
     assembly_.AddSegments(t_ns, {}, std::nullopt);
   }
 
-  KeyframeAssembly assembly_;
+  KeyframeAssembly assembly_{/*stamp_tolerance=*/0.002};
 };
 
 TEST_F(KeyframeAssemblyTest, JoinsEqualStampsInAnyOrder) {

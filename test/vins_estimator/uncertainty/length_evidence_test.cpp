@@ -9,7 +9,7 @@ namespace plm_vins {
 namespace {
 
 constexpr double kPrior = 0.002;
-constexpr double kAccelScaleDeviation = 0.0075;  // considered
+constexpr double kConsidered = 0.0075;  // considered
 
 // Combines evidence and the prior's zero.
 TEST(LengthEvidence, IsWhatRemainsWithoutThePrior) {
@@ -20,7 +20,7 @@ TEST(LengthEvidence, IsWhatRemainsWithoutThePrior) {
     const auto evidence = WithoutPrior(0.01 * of_data * variance, variance, kPrior);
     ASSERT_TRUE(evidence);
     EXPECT_NEAR(evidence->error, 0.01, 1e-12);
-    EXPECT_NEAR(evidence->deviation, std::hypot(deviation, kAccelScaleDeviation), 1e-12);
+    EXPECT_NEAR(evidence->deviation, std::hypot(deviation, kConsidered), 1e-12);
   }
 }
 

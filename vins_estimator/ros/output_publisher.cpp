@@ -110,7 +110,7 @@ void OutputPublisher::Publish(const EstimatedFrame& frame) {
 void OutputPublisher::Clear() {
   world_ = {};
   const std::lock_guard<std::mutex> lock(history_mutex_);
-  const visualization_msgs::Marker nothing = line_history_.Clear();
+  visualization_msgs::Marker nothing = line_history_.Clear();
   PublishIfWanted(history_lines_cloud_, [&] { return nothing; });
 }
 

@@ -87,7 +87,9 @@ void Flow(benchmark::State& state, const Input& input) {
   const auto pyramid1 = flow.BuildPyramid(Equalized(input.Image(1)));
   const auto points =
       CornerDetector(input.config.points, {}).Detect(image0, {}, input.config.points.max_cnt);
-  for (auto _ : state) benchmark::DoNotOptimize(flow.Track(pyramid0, pyramid1, points, points));
+  std::vector<FlowStart> starts;
+  for (const cv::Point2f& point : points) starts.push_back({point, point});
+  for (auto _ : state) benchmark::DoNotOptimize(flow.Track(pyramid0, pyramid1, starts));
 }
 
 void RejectOutliers(benchmark::State& state) {

@@ -25,7 +25,7 @@ TEST_F(ConfigSyntax, ErrorsNameTheLineAndCommonMistakes) {
 TEST_F(ConfigSyntax, ASecondDocumentIsRejected) {
   for (const std::string separator : {"---", "..."}) {
     ExpectProblem(separator + "\nmax_cnt: 100",
-                  {"camera.yaml:10: not valid YAML: a second document begins; remove the line"});
+                  {"camera.yaml:1", "not valid YAML: a second document begins; remove the line"});
   }
 }
 

@@ -40,15 +40,16 @@ void MissingImages::AddMissing(int64_t t_ns, const std::optional<int64_t>& last_
 }
 
 void MissingImages::AddLate(double later) {
-  const std::string apart =
-      Format("%.1f ms %s", 1e3 * std::abs(later), later < 0 ? "earlier" : "later");
-  count_.Add("the last one's timestamp is " + apart);
+  const double apart_ms = 1e3 * std::abs(later);
+  const char* direction = later < 0 ? "earlier" : "later";
+  count_.Add(Format("the last one's timestamp is %.1f ms %s", apart_ms, direction));
   same_offsets_ = std::abs(later - last_offset_) < kJitter ? same_offsets_ + 1 : 0;
   last_offset_ = later;
   if (same_offsets_ != kInARow) return;
   const double tolerance = 1e-3 * std::ceil(1e3 * std::abs(later) + 0.5);
   count_.detail =
-      "its timestamps are a constant " + apart + " than those of camera 0; " +
+      Format("its timestamps are a constant %.1f ms %s than those of camera 0; ", apart_ms,
+             direction) +
       (tolerance <= kMostTolerance
            ? Format("if one clock stamps both, set stamp_tolerance: %.3f", tolerance)
            : std::string("are the cameras triggered in turn? They must be triggered together"));

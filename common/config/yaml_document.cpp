@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-// Where a document begins, and whether it has any content.
+// Finds where a document begins, and whether it has any content.
 class DocumentStart : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark& mark) override {

@@ -271,6 +271,11 @@ int Run(const Arguments& arguments) {
   std::string failures;
   if (outputs.features) Try([&] { outputs.features->Close(); }, &failures);
   if (outputs.loops && !cuts.recording) Try([&] { AdjustMap(&*outputs.loops, &cuts); }, &failures);
+  if (outputs.loops) {
+    std::fprintf(stderr, "%s\n", outputs.loops->Line().c_str());
+    const std::string finding = outputs.loops->Finding();
+    if (!finding.empty()) run.findings.push_back(finding);
+  }
   if (outputs.map) {
     Try([&] { SaveMapTo(arguments.map_out, outputs.loops->map(), &*outputs.map); }, &failures);
   }

@@ -51,6 +51,12 @@ class LoopResults {
   // Counts and times, for summary.json.
   Json Summary() const;
 
+  // A line for the terminal: the loops, and when the loaded map was recognized.
+  std::string Line() const;
+
+  // Returns what is wrong if a map was loaded and never recognized; otherwise an empty string.
+  std::string Finding() const;
+
  private:
   // The map after bundle adjustment.
   struct Adjusted {
@@ -80,6 +86,8 @@ class LoopResults {
   std::vector<OdometryPose> poses_;
   std::vector<std::pair<size_t, std::string>> worlds_;  // first pose, reason; without the first
   std::optional<double> first_fix_;                     // since the first pose [s]
+  int loaded_keyframes_ = 0;                            // of the map that was loaded
+  int64_t recognitions_ = 0;                            // of them
   int64_t keyframes_ = 0;
   LoopTally tally_;
   std::vector<double> keyframe_ms_;

@@ -13,7 +13,6 @@
 #include "pose_graph/output/g2o_writer.h"
 #include "pose_graph/output/loop_table.h"
 #include "vins_estimator/output/covariance_table.h"
-#include "vins_estimator/output/series_summary.h"
 #include "vins_estimator/output/tum_format.h"
 
 namespace plm_vins {
@@ -96,7 +95,7 @@ void LoopResults::Count(const LoopClosure& closure, double milliseconds) {
   }
   if (!closure.is_keyframe) return;
   ++keyframes_;
-  keyframe_ms_.push_back(milliseconds);
+  keyframe_ms_.Add(milliseconds);
 }
 
 void LoopResults::Remember(const PipelineFrame& frame, const LoopClosure& closure) {
@@ -177,7 +176,7 @@ Json LoopResults::Summary() const {
     refused[ToString(static_cast<LoopGate>(gate))] = 0;
   }
   for (const auto& [gate, count] : tally_.refused) refused[ToString(gate)] = count;
-  const SeriesSummary timing = Summarize(keyframe_ms_);
+  const SeriesSummary timing = keyframe_ms_.Summary();
   Json json;
   json["keyframes"] = keyframes_;
   json["map_keyframes"] = map().CountKept();

@@ -19,6 +19,7 @@
 #include "pose_graph/loop_tally.h"
 #include "pose_graph/map/map_trajectory.h"
 #include "vins_estimator/output/json.h"
+#include "vins_estimator/output/series_summary.h"
 
 namespace plm_vins {
 
@@ -90,7 +91,7 @@ class LoopResults {
   int64_t recognitions_ = 0;                            // of them
   int64_t keyframes_ = 0;
   LoopTally tally_;
-  std::vector<double> keyframe_ms_;
+  Series keyframe_ms_;
 };
 
 }  // namespace plm_vins

@@ -122,6 +122,17 @@ void LengthCheck::Judge(const RatioCurve& curve) {
   is_known_ = is_settled && ratio_.deviation < (fits ? kKnown : kKnownBest);
 }
 
+void LengthCheck::Add(const LengthEvidence& log_ratio) {
+  if (is_known_ || std::abs(log_ratio.error) < kLargestError) return;
+  by_estimator_ = std::abs(log_ratio.error) / log_ratio.deviation;
+  if (by_estimator_ < kWrong) return;
+  is_wrong_ = true;
+  if (log_ratio.deviation < ratio_.deviation) {
+    ratio_.log_ratio = log_ratio.error;
+    ratio_.deviation = log_ratio.deviation;
+  }
+}
+
 // Drops the beginning of a long standstill. Returns whether it still lasts.
 bool LengthCheck::ShortenRest() {
   const auto is_long = [this] {

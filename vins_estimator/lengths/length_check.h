@@ -62,9 +62,10 @@ class LengthCheck {
   std::optional<int64_t> judged_ns_;  // newest image at the last judgement
   RatioCurve earlier_;                // of all pieces before
   RatioEstimate ratio_;
-  double scale_deviation_ = 1;  // of the depths in the best piece
-  double by_estimator_ = 0;     // contradiction that the estimator found
-  int contradictions_ = 0;      // consecutive judgements that rule the length out
+  double scale_information_ = 0;  // of the depths in all pieces before
+  double scale_information_of_piece_ = 0;
+  double by_estimator_ = 0;  // contradiction that the estimator found
+  int contradictions_ = 0;   // consecutive judgements that rule the length out
   bool is_wrong_ = false, is_known_ = false;
 };
 

@@ -217,8 +217,9 @@ bool Builder::ResectFromHere(int view, std::string* reason) {
   const Eigen::Matrix3d H_t = equations.H.topLeftCorner<3, 3>();
   const Eigen::Matrix3d H_r = equations.H.bottomRightCorner<3, 3>();
   const Eigen::Matrix3d H_tr = equations.H.topRightCorner<3, 3>();
-  structure_.rotation_information[view] = H_r - H_tr.transpose() * H_t.ldlt().solve(H_tr);
-  structure_.position_information[view] = H_t - H_tr * H_r.ldlt().solve(H_tr.transpose());
+  const Eigen::Matrix3d H_rt = H_tr.transpose();
+  structure_.rotation_information[view] = H_r - H_rt * SolveSymmetric(H_t, H_tr);
+  structure_.position_information[view] = H_t - H_tr * SolveSymmetric(H_r, H_rt);
   return true;
 }
 

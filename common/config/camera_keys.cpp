@@ -8,9 +8,8 @@ namespace plm_vins {
 namespace {
 
 using C = CameraParameters;
-using CameraKey = ConfigKey<C>;
 
-// CameraKey names of a camera model's parameters.
+// Key names of a camera model's parameters.
 struct ModelNames {
   std::string model_type;
   C::Model model;
@@ -52,40 +51,39 @@ const ModelNames* Find(const std::string& model_type) {
   return nullptr;
 }
 
-CameraKey ModelTypeKey() {
+ConfigKey ModelTypeKey(C* camera) {
   std::vector<std::pair<std::string, C::Model>> choices;
   for (const ModelNames& names : AllModels()) choices.emplace_back(names.model_type, names.model);
-  return CameraKey::Choice("model_type", choices, &C::model);
+  return ConfigKey::Choice("model_type", choices, &camera->model);
 }
 
-ConfigKeys<C> KeysOf(const ModelNames& names) {
+ConfigKeys KeysOf(const ModelNames& names, C* camera) {
   const std::string group = "projection_parameters.";
-  ConfigKeys<C> keys = {
-      CameraKey::Number(group + names.projection[0], "px", {1, 1e5}, &C::fx),
-      CameraKey::Number(group + names.projection[1], "px", {1, 1e5}, &C::fy),
-      CameraKey::Number(group + names.projection[2], "px", {0, 1e5}, &C::cx),
-      CameraKey::Number(group + names.projection[3], "px", {0, 1e5}, &C::cy),
+  ConfigKeys keys = {
+      ConfigKey::Number(group + names.projection[0], "px", {1, 1e5}, &camera->fx),
+      ConfigKey::Number(group + names.projection[1], "px", {1, 1e5}, &camera->fy),
+      ConfigKey::Number(group + names.projection[2], "px", {0, 1e5}, &camera->cx),
+      ConfigKey::Number(group + names.projection[3], "px", {0, 1e5}, &camera->cy),
   };
   for (size_t i = 0; i < names.distortion.size(); ++i) {
-    const auto coefficient = [i](auto& camera) -> auto& { return camera.distortion[i]; };
-    keys.push_back(CameraKey::Number(names.distortion_group + "." + names.distortion[i], "",
-                                     {-1e4, 1e4}, coefficient));
+    keys.push_back(ConfigKey::Number(names.distortion_group + "." + names.distortion[i], "",
+                                     {-1e4, 1e4}, &camera->distortion[i]));
   }
   if (names.model == C::Model::kMei) {
-    keys.push_back(CameraKey::Number("mirror_parameters.xi", "", {0, 10}, &C::xi));
+    keys.push_back(ConfigKey::Number("mirror_parameters.xi", "", {0, 10}, &camera->xi));
   }
   return keys;
 }
 
 }  // namespace
 
-ConfigKeys<CameraParameters> CameraKeys(const std::string& model_type) {
-  ConfigKeys<C> keys = {
-      ModelTypeKey(),
-      CameraKey::Integer("image_width", "px", {32, 16384}, &C::width),
-      CameraKey::Integer("image_height", "px", {32, 16384}, &C::height),
+ConfigKeys CameraKeys(const std::string& model_type, CameraParameters* camera) {
+  ConfigKeys keys = {
+      ModelTypeKey(camera),
+      ConfigKey::Integer("image_width", "px", {32, 16384}, &camera->width),
+      ConfigKey::Integer("image_height", "px", {32, 16384}, &camera->height),
   };
-  if (const ModelNames* names = Find(model_type)) keys = Join<C>({keys, KeysOf(*names)});
+  if (const ModelNames* names = Find(model_type)) keys = Join({keys, KeysOf(*names, camera)});
   return Required(keys);
 }
 
@@ -94,7 +92,7 @@ bool IsModelType(const std::string& model_type) { return Find(model_type) != nul
 std::string ModelType(CameraParameters::Model model) {
   CameraParameters camera;
   camera.model = model;
-  return std::get<std::string>(ModelTypeKey().value(camera));
+  return std::get<std::string>(ModelTypeKey(&camera).value());
 }
 
 }  // namespace plm_vins

@@ -10,7 +10,7 @@ namespace plm_vins {
 
 // Returns the calibration keys of this `model_type`, all required. If the type is unknown, the keys
 // of the model's parameters are missing.
-ConfigKeys<CameraParameters> CameraKeys(const std::string& model_type);
+ConfigKeys CameraKeys(const std::string& model_type, CameraParameters* camera);
 
 // Returns whether `model_type` is supported.
 bool IsModelType(const std::string& model_type);

@@ -45,12 +45,13 @@ class Loader {
       model_types.push_back(ModelTypeAsWritten(CameraPrefix(camera)));
       if (!IsModelType(model_types.back())) unknown_cameras_.push_back(CameraPrefix(camera));
     }
-    keys_ = AllKeys(model_types);
-    for (const ConfigKey<Config>& key : keys_) known_.push_back(key.name);
+    keys_ = AllKeys(model_types, &config_);
+    for (const ConfigKey& key : keys_) known_.push_back(key.name);
   }
 
   Config Load() {
-    for (const ConfigKey<Config>& key : keys_) Read(key);
+    for (const ConfigKey& key : keys_) Read(key);
+    RemoveDepthWithoutTopic(&config_.sensor);
     for (const auto& [name, entry] : entries_) CheckKnown(name);
     for (const std::string& prefix : unknown_cameras_) CheckCalibrationGroups(prefix);
     CheckTogether(entries_, config_, [this](const auto& key, const auto& text) { Add(key, text); });
@@ -66,7 +67,7 @@ class Loader {
     return entry == entries_.end() ? "" : ScalarText(entry->second.value).value_or("");
   }
 
-  void Read(const ConfigKey<Config>& key) {
+  void Read(const ConfigKey& key) {
     const auto entry = entries_.find(key.name);
     if (entry == entries_.end()) {
       const bool has_broken_group = entries_.count(key.name.substr(0, key.name.find('.'))) > 0;
@@ -76,8 +77,8 @@ class Loader {
       return;
     }
     const auto text = ScalarText(entry->second.value);
-    if (const Problem problem = key.read(entry->second.value, config_)) {
-      const std::string standard = ToText(key.value(Config()));
+    if (const Problem problem = key.read(entry->second.value)) {
+      const std::string standard = ToText(key.value());  // an invalid value is not stored
       Add(key.name, (text ? "\"" + *text + "\" " : "") + *problem +
                         (key.has_default ? " (default " + standard + ")" : ""));
     }
@@ -172,7 +173,7 @@ class Loader {
   Config config_;
   ConfigEntries entries_;
   std::vector<std::string> unknown_cameras_;  // prefixes of cameras with an unknown model
-  ConfigKeys<Config> keys_;
+  ConfigKeys keys_;
   std::vector<std::string> known_;    // names of the keys
   std::vector<std::string> ignored_;  // names of keys without effect
   std::vector<std::string> problems_;
@@ -190,8 +191,9 @@ Config LoadConfig(const std::string& file, const std::map<std::string, std::stri
 
 std::vector<std::pair<std::string, ConfigValue>> EffectiveValues(const Config& config) {
   std::vector<std::pair<std::string, ConfigValue>> values;
-  for (const ConfigKey<Config>& key : KeysOf(config)) {
-    values.emplace_back(key.name, key.value(config));
+  Config copy = config;
+  for (const ConfigKey& key : KeysOf(&copy)) {
+    values.emplace_back(key.name, key.value());
   }
   return values;
 }

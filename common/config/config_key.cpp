@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace plm_vins {
@@ -17,6 +18,17 @@ std::optional<double> ToNumber(const YAML::Node& value) {
   double number = 0;
   if (!value.IsScalar() || !YAML::convert<double>::decode(value, number)) return std::nullopt;
   return number;
+}
+
+template <typename Field>
+ConfigKey KeyOf(const std::string& name, const std::string& unit, const std::string& allowed,
+                Field* field) {
+  ConfigKey key;
+  key.name = name;
+  key.unit = unit;
+  key.allowed = allowed;
+  key.value = [field] { return ConfigValue(*field); };
+  return key;
 }
 
 }  // namespace
@@ -81,6 +93,85 @@ Problem ReadMatrix(const YAML::Node& node, Eigen::MatrixXd* matrix) {
     (*matrix)(i / matrix->cols(), i % matrix->cols()) = *number;
   }
   return std::nullopt;
+}
+
+ConfigKey ConfigKey::Number(const std::string& name, const std::string& unit, Range range,
+                            double* field) {
+  ConfigKey key = KeyOf(name, unit, ToText(range), field);
+  key.read = [=](const YAML::Node& value) { return ReadNumber(value, unit, range, field); };
+  key.keep_in_range = [=] { *field = std::clamp(*field, range.min, range.max); };
+  return key;
+}
+
+ConfigKey ConfigKey::Integer(const std::string& name, const std::string& unit, Range range,
+                             int* field) {
+  ConfigKey key = KeyOf(name, unit, ToText(range), field);
+  key.read = [=](const YAML::Node& value) { return ReadInteger(value, unit, range, field); };
+  return key;
+}
+
+ConfigKey ConfigKey::Flag(const std::string& name, bool* field) {
+  ConfigKey key = KeyOf(name, "", "0 or 1", field);
+  key.read = [=](const YAML::Node& value) { return ReadFlag(value, field); };
+  return key;
+}
+
+ConfigKey ConfigKey::Text(const std::string& name, std::string* field) {
+  ConfigKey key = KeyOf(name, "", "", field);
+  key.read = [=](const YAML::Node& value) { return ReadText(value, field); };
+  return key;
+}
+
+ConfigKey ConfigKey::OneOf(const std::string& name, const std::vector<std::string>& words,
+                           std::function<void(size_t)> set, std::function<bool(size_t)> is) {
+  ConfigKey key;
+  key.name = name;
+  for (const std::string& word : words) key.allowed += (key.allowed.empty() ? "" : ", ") + word;
+  key.allowed = "one of " + key.allowed;
+  key.read = [=, allowed = key.allowed](const YAML::Node& value) -> Problem {
+    const auto text = ScalarText(value);
+    const auto word = text ? std::find(words.begin(), words.end(), *text) : words.end();
+    if (word == words.end()) return "must be " + allowed;
+    set(static_cast<size_t>(word - words.begin()));
+    return std::nullopt;
+  };
+  key.value = [=] {
+    size_t i = 0;
+    while (i < words.size() && !is(i)) ++i;
+    return ConfigValue(i < words.size() ? words[i] : std::string());
+  };
+  return key;
+}
+
+ConfigKey ConfigKey::Matrix(const std::string& name, std::function<Eigen::MatrixXd()> get,
+                            std::function<Problem(const Eigen::MatrixXd&)> set) {
+  ConfigKey key;
+  key.name = name;
+  key.read = [=](const YAML::Node& value) {
+    Eigen::MatrixXd matrix = get();
+    const Problem problem = ReadMatrix(value, &matrix);
+    return problem ? problem : set(matrix);
+  };
+  key.value = [=] {
+    const Eigen::MatrixXd by_column = get().transpose();
+    return ConfigValue(std::vector<double>(by_column.data(), by_column.data() + by_column.size()));
+  };
+  key.has_default = false;
+  return key;
+}
+
+ConfigKeys Required(ConfigKeys keys) {
+  for (ConfigKey& key : keys) {
+    key.required = true;
+    key.has_default = false;
+  }
+  return keys;
+}
+
+ConfigKeys Join(const std::vector<ConfigKeys>& lists) {
+  ConfigKeys keys;
+  for (const ConfigKeys& list : lists) keys.insert(keys.end(), list.begin(), list.end());
+  return keys;
 }
 
 }  // namespace plm_vins

@@ -7,37 +7,37 @@ namespace plm_vins {
 namespace {
 
 // Keys that concern several modules.
-ConfigKeys<Config> SharedKeys() {
-  using Key = ConfigKey<Config>;
+ConfigKeys SharedKeys(Config* config) {
+  using Key = ConfigKey;
   return {
-      Key::Number("freq", "Hz", {0, 1000}, &Config::publish_rate),
-      Key::Flag("show_track", &Config::show_track),
-      Key::Flag("use_lines", &Config::use_lines),
+      Key::Number("freq", "Hz", {0, 1000}, &config->publish_rate),
+      Key::Flag("show_track", &config->show_track),
+      Key::Flag("use_lines", &config->use_lines),
   };
 }
 
 }  // namespace
 
-ConfigKeys<Config> AllKeys(const std::vector<std::string>& model_types) {
-  return Join<Config>(
-      {Within(&Config::sensor, SensorKeys(model_types)), SharedKeys(),
-       Within(&Config::points, PointTrackerKeys()), Within(&Config::lines, LineTrackerKeys()),
-       Within(&Config::estimator, EstimatorKeys()), Within(&Config::pose_graph, PoseGraphKeys()),
-       Within(&Config::output, OutputKeys())});
+ConfigKeys AllKeys(const std::vector<std::string>& model_types, Config* config) {
+  return Join({SensorKeys(model_types, &config->sensor), SharedKeys(config),
+               PointTrackerKeys(&config->points), LineTrackerKeys(&config->lines),
+               EstimatorKeys(&config->estimator), PoseGraphKeys(&config->pose_graph),
+               OutputKeys(&config->output)});
 }
 
-ConfigKeys<Config> KeysOf(const Config& config) {
+ConfigKeys KeysOf(Config* config) {
   std::vector<std::string> model_types;
-  for (const CameraSensor& camera : config.sensor.cameras) {
+  for (const CameraSensor& camera : config->sensor.cameras) {
     model_types.push_back(ModelType(camera.parameters.model));
   }
-  return AllKeys(model_types);
+  return AllKeys(model_types, config);
 }
 
 void KeepInRange(Config* config) {
-  for (const ConfigKey<Config>& key : KeysOf(*config)) {
-    if (key.keep_in_range) key.keep_in_range(*config);
+  for (const ConfigKey& key : KeysOf(config)) {
+    if (key.keep_in_range) key.keep_in_range();
   }
+  RemoveDepthWithoutTopic(&config->sensor);
 }
 
 const std::vector<std::string>& IgnoredKeys() {

@@ -9,12 +9,13 @@
 
 namespace plm_vins {
 
-// Returns all keys of all modules for as many cameras as there are types, by number. A new key
-// needs a line in the list of its module and one in config/reference.yaml.
-ConfigKeys<Config> AllKeys(const std::vector<std::string>& model_types);
+// Returns all keys of all modules, bound to the configuration, which gets as many cameras as there
+// are types, and a depth sensor. A new key needs a line in the list of its module and one in
+// config/reference.yaml.
+ConfigKeys AllKeys(const std::vector<std::string>& model_types, Config* config);
 
-// Returns all keys of a file that is equivalent to this configuration.
-ConfigKeys<Config> KeysOf(const Config& config);
+// Returns all keys of a file that is equivalent to this configuration, likewise.
+ConfigKeys KeysOf(Config* config);
 
 // Clamps every number that a program has set to the range of its key, so that a file with these
 // numbers can be read.

@@ -31,6 +31,6 @@ struct EstimatorConfig {
   bool verbose = false;
 };
 
-ConfigKeys<EstimatorConfig> EstimatorKeys();
+ConfigKeys EstimatorKeys(EstimatorConfig* estimator);
 
 }  // namespace plm_vins

@@ -3,21 +3,20 @@
 
 namespace plm_vins {
 
-ConfigKeys<LineTrackerConfig> LineTrackerKeys() {
-  using Key = ConfigKey<LineTrackerConfig>;
-  using L = LineTrackerConfig;
+ConfigKeys LineTrackerKeys(LineTrackerConfig* lines) {
+  using Key = ConfigKey;
   return {
       Key::Choice<LineDetectorType>("line_detector",
                                     {{"fld", LineDetectorType::kFld},
                                      {"lsd", LineDetectorType::kLsd},
                                      {"edlines", LineDetectorType::kEdLines}},
-                                    &L::line_detector),
-      Key::Integer("max_line_cnt", "lines", {1, 5000}, &L::max_lines),
-      Key::Number("line_min_length", "", {0.01, 1}, &L::min_length),
-      Key::Number("line_min_dist", "px", {0, 100}, &L::spacing),
-      Key::Number("line_min_gradient", "gray levels/px", {0.1, 255}, &L::min_gradient),
-      Key::Number("line_border", "px", {1, 500}, &L::border),
-      Key::Flag("line_half_resolution", &L::half_resolution),
+                                    &lines->line_detector),
+      Key::Integer("max_line_cnt", "lines", {1, 5000}, &lines->max_lines),
+      Key::Number("line_min_length", "", {0.01, 1}, &lines->min_length),
+      Key::Number("line_min_dist", "px", {0, 100}, &lines->spacing),
+      Key::Number("line_min_gradient", "gray levels/px", {0.1, 255}, &lines->min_gradient),
+      Key::Number("line_border", "px", {1, 500}, &lines->border),
+      Key::Flag("line_half_resolution", &lines->half_resolution),
   };
 }
 

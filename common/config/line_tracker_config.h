@@ -17,6 +17,6 @@ struct LineTrackerConfig {
   double spacing = 5;           // minimum distance between parallel lines side by side [px]
 };
 
-ConfigKeys<LineTrackerConfig> LineTrackerKeys();
+ConfigKeys LineTrackerKeys(LineTrackerConfig* lines);
 
 }  // namespace plm_vins

@@ -3,17 +3,16 @@
 
 namespace plm_vins {
 
-ConfigKeys<OutputConfig> OutputKeys() {
-  using Key = ConfigKey<OutputConfig>;
-  using O = OutputConfig;
+ConfigKeys OutputKeys(OutputConfig* output) {
+  using Key = ConfigKey;
   return {
-      Key::Text("map_frame", &O::map_frame),
-      Key::Text("world_frame", &O::world_frame),
-      Key::Text("body_frame", &O::body_frame),
-      Key::Text("camera_frame", &O::camera_frame),
-      Key::Text("manhattan_frame", &O::manhattan_frame),
-      Key::Text("base_frame", &O::base_frame),
-      Key::Flag("publish_tf", &O::publish_tf),
+      Key::Text("map_frame", &output->map_frame),
+      Key::Text("world_frame", &output->world_frame),
+      Key::Text("body_frame", &output->body_frame),
+      Key::Text("camera_frame", &output->camera_frame),
+      Key::Text("manhattan_frame", &output->manhattan_frame),
+      Key::Text("base_frame", &output->base_frame),
+      Key::Flag("publish_tf", &output->publish_tf),
   };
 }
 

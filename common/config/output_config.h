@@ -18,6 +18,6 @@ struct OutputConfig {
   bool publish_tf = true;
 };
 
-ConfigKeys<OutputConfig> OutputKeys();
+ConfigKeys OutputKeys(OutputConfig* output);
 
 }  // namespace plm_vins

@@ -24,6 +24,6 @@ struct PointTrackerConfig {
   double forward_backward = 0.5;  // maximum forward-backward error of the flow [px]
 };
 
-ConfigKeys<PointTrackerConfig> PointTrackerKeys();
+ConfigKeys PointTrackerKeys(PointTrackerConfig* points);
 
 }  // namespace plm_vins

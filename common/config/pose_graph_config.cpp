@@ -9,14 +9,13 @@ std::string PoseGraphConfig::MapFile() const {
   return (std::filesystem::path(save_path) / "pose_graph.plm").string();
 }
 
-ConfigKeys<PoseGraphConfig> PoseGraphKeys() {
-  using Key = ConfigKey<PoseGraphConfig>;
-  using P = PoseGraphConfig;
+ConfigKeys PoseGraphKeys(PoseGraphConfig* pose_graph) {
+  using Key = ConfigKey;
   return {
-      Key::Flag("loop_closure", &P::loop_closure),
-      Key::Flag("bundle_adjustment", &P::bundle_adjustment),
-      Key::Text("pose_graph_save_path", &P::save_path),
-      Key::Flag("load_previous_pose_graph", &P::load_previous),
+      Key::Flag("loop_closure", &pose_graph->loop_closure),
+      Key::Flag("bundle_adjustment", &pose_graph->bundle_adjustment),
+      Key::Text("pose_graph_save_path", &pose_graph->save_path),
+      Key::Flag("load_previous_pose_graph", &pose_graph->load_previous),
   };
 }
 

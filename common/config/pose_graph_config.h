@@ -17,6 +17,6 @@ struct PoseGraphConfig {
   std::string MapFile() const;
 };
 
-ConfigKeys<PoseGraphConfig> PoseGraphKeys();
+ConfigKeys PoseGraphKeys(PoseGraphConfig* pose_graph);
 
 }  // namespace plm_vins

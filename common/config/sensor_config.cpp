@@ -10,7 +10,7 @@ namespace plm_vins {
 namespace {
 
 using S = SensorConfig;
-using Key = ConfigKey<S>;
+using Key = ConfigKey;
 
 constexpr double kRotationTolerance = 5e-3;     // allows matrices with three decimals
 constexpr Range kTranslationRange = {-10, 10};  // [m]
@@ -33,40 +33,38 @@ Problem SetTranslation(const Eigen::Vector3d& p_B_C, Rigid3d* T_B_C) {
   return std::nullopt;
 }
 
-Key ExtrinsicModeKey() {
+Key ExtrinsicModeKey(S::ExtrinsicMode* mode) {
   using Mode = S::ExtrinsicMode;
-  Key mode = Key::Choice<Mode>(
+  Key key = Key::Choice<Mode>(
       "estimate_extrinsic",
-      {{"0", Mode::kFixed}, {"1", Mode::kRefine}, {"2", Mode::kCalibrateRotation}},
-      &S::estimate_extrinsic);
-  mode.value = [](const S& sensor) { return static_cast<int>(sensor.estimate_extrinsic); };
-  return mode;
+      {{"0", Mode::kFixed}, {"1", Mode::kRefine}, {"2", Mode::kCalibrateRotation}}, mode);
+  key.value = [mode] { return static_cast<int>(*mode); };
+  return key;
 }
 
-// The value decides which cameras there are, so this key precedes theirs.
-Key CameraCountKey() {
-  const auto read = [](const YAML::Node& value, S& sensor) {
+// The value decides which cameras have keys, so it is stored before there are any.
+Key CameraCountKey(const std::vector<CameraSensor>* cameras) {
+  Key key;
+  key.name = "num_of_cam";
+  key.unit = "cameras";
+  key.allowed = ToText(kCameraCounts);
+  key.read = [](const YAML::Node& value) {
     int count = 1;
-    const Problem problem = ReadInteger(value, "cameras", kCameraCounts, &count);
-    sensor.cameras.resize(count);
-    return problem;
+    return ReadInteger(value, "cameras", kCameraCounts, &count);
   };
-  const auto value = [](const S& sensor) {
-    return ConfigValue(static_cast<int>(sensor.cameras.size()));
-  };
-  return {"num_of_cam", "cameras", ToText(kCameraCounts), read, value};
+  key.value = [cameras] { return ConfigValue(static_cast<int>(cameras->size())); };
+  return key;
 }
 
 // The transform of camera 0, in the two keys of VINS-Mono.
-ConfigKeys<CameraSensor> FirstTransformKeys() {
-  using Key = ConfigKey<CameraSensor>;
+ConfigKeys FirstTransformKeys(Rigid3d* T_B_C) {
   Key rotation = Key::Matrix(
-      "extrinsicRotation", [](const CameraSensor& camera) { return camera.T_B_C.R(); },
-      [](const auto& R_B_C, CameraSensor& camera) { return SetRotation(R_B_C, &camera.T_B_C); });
+      "extrinsicRotation", [=] { return T_B_C->R(); },
+      [=](const Eigen::MatrixXd& R_B_C) { return SetRotation(R_B_C, T_B_C); });
   rotation.allowed = "orthonormal within " + ToText(kRotationTolerance);
   Key translation = Key::Matrix(
-      "extrinsicTranslation", [](const CameraSensor& camera) { return camera.T_B_C.translation; },
-      [](const auto& p_B_C, CameraSensor& camera) { return SetTranslation(p_B_C, &camera.T_B_C); });
+      "extrinsicTranslation", [=] { return T_B_C->translation; },
+      [=](const Eigen::MatrixXd& p_B_C) { return SetTranslation(p_B_C, T_B_C); });
   translation.unit = "m";
   translation.allowed = "each " + ToText(kTranslationRange);
   return {rotation, translation};
@@ -79,97 +77,45 @@ Eigen::MatrixXd Matrix4(const Rigid3d& transform) {
   return matrix;
 }
 
-ConfigKeys<CameraSensor> TransformKeys(int camera) {
-  if (camera == 0) return FirstTransformKeys();
-  return Required<CameraSensor>({ConfigKey<CameraSensor>::Matrix(
-      TransformKey(camera), [](const CameraSensor& sensor) { return Matrix4(sensor.T_B_C); },
-      [](const auto& T_B_C, CameraSensor& sensor) { return SetTransform(T_B_C, &sensor.T_B_C); })});
+ConfigKeys TransformKeys(int camera, Rigid3d* T_B_C) {
+  if (camera == 0) return FirstTransformKeys(T_B_C);
+  return Required({Key::Matrix(
+      TransformKey(camera), [=] { return Matrix4(*T_B_C); },
+      [=](const Eigen::MatrixXd& matrix) { return SetTransform(matrix, T_B_C); })});
 }
 
-ConfigKeys<S> KeysOfCamera(int camera, const std::string& model_type) {
-  ConfigKeys<CameraParameters> calibration = CameraKeys(model_type);
-  for (auto& key : calibration) key.name = CameraPrefix(camera) + key.name;
-  const auto topic = ConfigKey<CameraSensor>::Text(TopicKey(camera), &CameraSensor::image_topic);
-  const auto find = [camera](auto& sensor) {
-    const bool is_there = camera < static_cast<int>(sensor.cameras.size());
-    return is_there ? &sensor.cameras[camera] : nullptr;
-  };
-  return KeysOfPart<S>(find, Join<CameraSensor>({Required<CameraSensor>({topic}),
-                                                 Within(&CameraSensor::parameters, calibration),
-                                                 TransformKeys(camera)}));
+ConfigKeys KeysOfCamera(int number, const std::string& model_type, CameraSensor* camera) {
+  ConfigKeys calibration = CameraKeys(model_type, &camera->parameters);
+  for (Key& key : calibration) key.name = CameraPrefix(number) + key.name;
+  return Join({Required({Key::Text(TopicKey(number), &camera->image_topic)}), calibration,
+               TransformKeys(number, &camera->T_B_C)});
 }
 
-// A topic enables the depth sensor, so its key precedes the others.
-ConfigKeys<S> DepthKeys() {
-  const auto read = [](const YAML::Node& value, S& sensor) {
-    DepthSensor depth;
-    const Problem problem = ReadText(value, &depth.topic);
-    if (!depth.topic.empty()) sensor.depth = depth;
-    return problem;
-  };
-  const auto value = [](const S& sensor) {
-    return ConfigValue(sensor.depth.value_or(DepthSensor()).topic);
-  };
-  using D = DepthSensor;
-  const ConfigKeys<D> others = {
-      ConfigKey<D>::Number("depth_noise", "1/m", {1e-6, 1}, &D::noise),
-      ConfigKey<D>::Number("depth_unit", "m", {1e-6, 1}, &D::unit),
-      ConfigKey<D>::Number("depth_max", "m", {0.1, 1000}, &D::max),
-  };
-  return Join<S>({{{"depth_topic", "", "", read, value}}, Within(&S::depth, others)});
-}
-
-ConfigKeys<IntrinsicsDeviation> IntrinsicsDeviationKeys() {
-  using Key = ConfigKey<IntrinsicsDeviation>;
-  using D = IntrinsicsDeviation;
+ConfigKeys DepthKeys(DepthSensor* depth) {
   return {
-      Key::Number("focal_length_deviation", "", {1e-6, 0.2}, &D::focal_length),
-      Key::Number("principal_point_deviation", "px", {1e-3, 200}, &D::principal_point),
-      Key::Number("distortion_deviation", "", {1e-6, 1}, &D::distortion),
-  };
-}
-
-ConfigKeys<ImuNoise> ImuNoiseKeys() {
-  using Key = ConfigKey<ImuNoise>;
-  using N = ImuNoise;
-  return {
-      Key::Number("acc_n", "m/s^2/sqrt(Hz); vins: m/s^2", {1e-6, 10}, &N::accel_density),
-      Key::Number("gyr_n", "rad/s/sqrt(Hz); vins: rad/s", {1e-7, 1}, &N::gyro_density),
-      Key::Number("acc_w", "m/s^3/sqrt(Hz); vins: m/s^3", {1e-9, 1}, &N::accel_walk),
-      Key::Number("gyr_w", "rad/s^2/sqrt(Hz); vins: rad/s^2", {1e-10, 1}, &N::gyro_walk),
+      Key::Text("depth_topic", &depth->topic),
+      Key::Number("depth_noise", "1/m", {1e-6, 1}, &depth->noise),
+      Key::Number("depth_unit", "m", {1e-6, 1}, &depth->unit),
+      Key::Number("depth_max", "m", {0.1, 1000}, &depth->max),
   };
 }
 
 // The scale factors of a matrix are its singular values. The axes of both frames are right-handed,
 // so the determinant is positive.
-ConfigKey<ImuSensor> CorrectionKey(const std::string& name, Eigen::Matrix3d ImuSensor::*field) {
-  const auto set = [field](const Eigen::Matrix3d& matrix, ImuSensor& sensor) -> Problem {
+Key CorrectionKey(const std::string& name, Eigen::Matrix3d* correction) {
+  const auto set = [correction](const Eigen::Matrix3d& matrix) -> Problem {
     const Eigen::Vector3d scales = matrix.jacobiSvd().singularValues();
     if (scales.minCoeff() < kScaleRange.min || scales.maxCoeff() > kScaleRange.max) {
       return "is not a valid IMU correction; its scale factors must be " + ToText(kScaleRange);
     }
     if (matrix.determinant() < 0) return "mirrors the axes; its determinant must be positive";
-    sensor.*field = matrix;
+    *correction = matrix;
     return std::nullopt;
   };
-  auto key = ConfigKey<ImuSensor>::Matrix(
-      name, [field](const ImuSensor& sensor) { return sensor.*field; }, set);
+  Key key = Key::Matrix(
+      name, [correction] { return *correction; }, set);
   key.allowed = "scale factors " + ToText(kScaleRange);
   return key;
-}
-
-ConfigKeys<ImuSensor> ImuSensorKeys() {
-  using Key = ConfigKey<ImuSensor>;
-  return {
-      Key::Number(
-          "acc_range", "m/s^2", {15, 500},
-          [](auto& sensor) -> auto& { return sensor.range.accel; }),
-      Key::Number(
-          "gyr_range", "rad/s", {0.5, 100},
-          [](auto& sensor) -> auto& { return sensor.range.gyro; }),
-      CorrectionKey("acc_correction", &ImuSensor::accel_correction),
-      CorrectionKey("gyr_correction", &ImuSensor::gyro_correction),
-  };
 }
 
 }  // namespace
@@ -190,38 +136,50 @@ std::string TopicKey(int camera) {
 
 std::string TransformKey(int camera) { return "body_T_cam" + std::to_string(camera); }
 
-ConfigKeys<SensorConfig> SensorKeys(const std::vector<std::string>& model_types) {
-  const ConfigKeys<S> timing = {
-      Key::Number("td", "s", {-1, 1}, &S::td),
-      Key::Flag("estimate_td", &S::estimate_td),
-      Key::Number("stamp_tolerance", "s", {0, 0.02}, &S::stamp_tolerance),
-      Key::Flag("rolling_shutter", &S::rolling_shutter),
-      Key::Number("rolling_shutter_tr", "s", {0, 0.2}, &S::rolling_shutter_tr),
-  };
-  const ConfigKeys<S> noise = {
-      Key::Choice<S::ImuNoiseModel>(
-          "imu_noise_model",
-          {{"vins", S::ImuNoiseModel::kVins}, {"continuous", S::ImuNoiseModel::kContinuous}},
-          &S::imu_noise_model),
-      Key::Number("imu_rate", "Hz", {25, 10000}, &S::imu_rate),
-      Key::Number("accel_bias_deviation", "m/s^2", {1e-3, 5}, &S::accel_bias_deviation),
-      Key::Number("g_norm", "m/s^2", {9, 10.5}, &S::gravity_norm),
-  };
-  ConfigKeys<S> cameras = {CameraCountKey()};
+void RemoveDepthWithoutTopic(SensorConfig* sensor) {
+  if (sensor->depth && sensor->depth->topic.empty()) sensor->depth.reset();
+}
+
+ConfigKeys SensorKeys(const std::vector<std::string>& model_types, SensorConfig* sensor) {
+  sensor->cameras.resize(model_types.size());
+  if (!sensor->depth) sensor->depth.emplace();
+  ConfigKeys cameras = {CameraCountKey(&sensor->cameras)};
   for (size_t i = 0; i < model_types.size(); ++i) {
-    cameras = Join<S>({cameras, KeysOfCamera(static_cast<int>(i), model_types[i])});
+    const int number = static_cast<int>(i);
+    cameras = Join({cameras, KeysOfCamera(number, model_types[i], &sensor->cameras[i])});
   }
-  cameras.push_back(Key::Text("stereo_pairs", &S::stereo_pairs));
-  return Join<S>({cameras,
-                  Required<S>({Key::Text("imu_topic", &S::imu_topic)}),
-                  {Key::Flag("estimate_intrinsics", &S::estimate_intrinsics)},
-                  Within(&S::intrinsics_deviation, IntrinsicsDeviationKeys()),
-                  {ExtrinsicModeKey()},
-                  DepthKeys(),
-                  timing,
-                  noise,
-                  Within(&S::imu_noise, ImuNoiseKeys()),
-                  Within(&S::imu, ImuSensorKeys())});
+  IntrinsicsDeviation* intrinsics = &sensor->intrinsics_deviation;
+  ImuNoise* noise = &sensor->imu_noise;
+  return Join(
+      {cameras,
+       {Key::Text("stereo_pairs", &sensor->stereo_pairs)},
+       Required({Key::Text("imu_topic", &sensor->imu_topic)}),
+       {Key::Flag("estimate_intrinsics", &sensor->estimate_intrinsics),
+        Key::Number("focal_length_deviation", "", {1e-6, 0.2}, &intrinsics->focal_length),
+        Key::Number("principal_point_deviation", "px", {1e-3, 200}, &intrinsics->principal_point),
+        Key::Number("distortion_deviation", "", {1e-6, 1}, &intrinsics->distortion),
+        ExtrinsicModeKey(&sensor->estimate_extrinsic)},
+       DepthKeys(&*sensor->depth),
+       {Key::Number("td", "s", {-1, 1}, &sensor->td),
+        Key::Flag("estimate_td", &sensor->estimate_td),
+        Key::Number("stamp_tolerance", "s", {0, 0.02}, &sensor->stamp_tolerance),
+        Key::Flag("rolling_shutter", &sensor->rolling_shutter),
+        Key::Number("rolling_shutter_tr", "s", {0, 0.2}, &sensor->rolling_shutter_tr),
+        Key::Choice<S::ImuNoiseModel>(
+            "imu_noise_model",
+            {{"vins", S::ImuNoiseModel::kVins}, {"continuous", S::ImuNoiseModel::kContinuous}},
+            &sensor->imu_noise_model),
+        Key::Number("imu_rate", "Hz", {25, 10000}, &sensor->imu_rate),
+        Key::Number("accel_bias_deviation", "m/s^2", {1e-3, 5}, &sensor->accel_bias_deviation),
+        Key::Number("g_norm", "m/s^2", {9, 10.5}, &sensor->gravity_norm),
+        Key::Number("acc_n", "m/s^2/sqrt(Hz); vins: m/s^2", {1e-6, 10}, &noise->accel_density),
+        Key::Number("gyr_n", "rad/s/sqrt(Hz); vins: rad/s", {1e-7, 1}, &noise->gyro_density),
+        Key::Number("acc_w", "m/s^3/sqrt(Hz); vins: m/s^3", {1e-9, 1}, &noise->accel_walk),
+        Key::Number("gyr_w", "rad/s^2/sqrt(Hz); vins: rad/s^2", {1e-10, 1}, &noise->gyro_walk),
+        Key::Number("acc_range", "m/s^2", {15, 500}, &sensor->imu.range.accel),
+        Key::Number("gyr_range", "rad/s", {0.5, 100}, &sensor->imu.range.gyro),
+        CorrectionKey("acc_correction", &sensor->imu.accel_correction),
+        CorrectionKey("gyr_correction", &sensor->imu.gyro_correction)}});
 }
 
 }  // namespace plm_vins

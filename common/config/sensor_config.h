@@ -80,7 +80,11 @@ std::string TransformKey(int camera);
 // Sets the transform from a 4x4 matrix. Returns a problem if it is not a rigid transform.
 Problem SetTransform(const Eigen::MatrixXd& T_B_C, Rigid3d* transform);
 
-// Returns all keys for as many cameras as there are types, by number.
-ConfigKeys<SensorConfig> SensorKeys(const std::vector<std::string>& model_types);
+// Returns all keys, bound to `sensor`, which gets as many cameras as there are types, and a depth
+// sensor, since its keys need a field.
+ConfigKeys SensorKeys(const std::vector<std::string>& model_types, SensorConfig* sensor);
+
+// Removes a depth sensor that has no topic: the configuration has none.
+void RemoveDepthWithoutTopic(SensorConfig* sensor);
 
 }  // namespace plm_vins

@@ -5,17 +5,27 @@
 
 namespace plm_vins {
 
-template <int kSize>
-Eigen::Matrix<double, kSize, 1> SolveSymmetric(const Eigen::Matrix<double, kSize, kSize>& A,
-                                               const Eigen::Matrix<double, kSize, 1>& b) {
-  return A.ldlt().solve(b);
+using Eigen::Matrix;
+
+template <int kSize, int kColumns>
+Matrix<double, kSize, kColumns> SolveSymmetric(const Matrix<double, kSize, kSize>& A,
+                                               const Matrix<double, kSize, kColumns>& B) {
+  return A.ldlt().solve(B);
 }
 
-template Eigen::Matrix<double, 3, 1> SolveSymmetric(const Eigen::Matrix<double, 3, 3>& A,
-                                                    const Eigen::Matrix<double, 3, 1>& b);
-template Eigen::Matrix<double, 5, 1> SolveSymmetric(const Eigen::Matrix<double, 5, 5>& A,
-                                                    const Eigen::Matrix<double, 5, 1>& b);
-template Eigen::Matrix<double, 6, 1> SolveSymmetric(const Eigen::Matrix<double, 6, 6>& A,
-                                                    const Eigen::Matrix<double, 6, 1>& b);
+template Matrix<double, 3, 1> SolveSymmetric(const Matrix<double, 3, 3>&,
+                                             const Matrix<double, 3, 1>&);
+template Matrix<double, 3, 3> SolveSymmetric(const Matrix<double, 3, 3>&,
+                                             const Matrix<double, 3, 3>&);
+template Matrix<double, 4, 1> SolveSymmetric(const Matrix<double, 4, 4>&,
+                                             const Matrix<double, 4, 1>&);
+template Matrix<double, 4, 4> SolveSymmetric(const Matrix<double, 4, 4>&,
+                                             const Matrix<double, 4, 4>&);
+template Matrix<double, 5, 1> SolveSymmetric(const Matrix<double, 5, 5>&,
+                                             const Matrix<double, 5, 1>&);
+template Matrix<double, 6, 1> SolveSymmetric(const Matrix<double, 6, 6>&,
+                                             const Matrix<double, 6, 1>&);
+template Matrix<double, 6, 6> SolveSymmetric(const Matrix<double, 6, 6>&,
+                                             const Matrix<double, 6, 6>&);
 
 }  // namespace plm_vins

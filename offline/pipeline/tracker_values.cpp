@@ -10,21 +10,20 @@
 namespace plm_vins {
 namespace {
 
-template <typename Section>
-void AddNames(const ConfigKeys<Section>& keys, std::set<std::string>* names) {
-  for (const ConfigKey<Section>& key : keys) names->insert(key.name);
+void AddNames(const ConfigKeys& keys, const std::string& prefix, std::set<std::string>* names) {
+  for (const ConfigKey& key : keys) names->insert(prefix + key.name);
 }
 
-std::set<std::string> NamesFor(const Config& config) {
+std::set<std::string> NamesFor(Config config) {
   std::set<std::string> names = {"freq", "use_lines", "num_of_cam", "stereo_pairs", "depth_topic"};
-  const std::vector<CameraSensor>& cameras = config.sensor.cameras;
+  std::vector<CameraSensor>& cameras = config.sensor.cameras;
   for (size_t i = 0; i < cameras.size(); ++i) {
-    for (const auto& key : CameraKeys(ModelType(cameras[i].parameters.model))) {
-      names.insert(CameraPrefix(static_cast<int>(i)) + key.name);
-    }
+    CameraParameters* camera = &cameras[i].parameters;
+    AddNames(CameraKeys(ModelType(camera->model), camera), CameraPrefix(static_cast<int>(i)),
+             &names);
   }
-  AddNames(PointTrackerKeys(), &names);
-  if (config.use_lines) AddNames(LineTrackerKeys(), &names);
+  AddNames(PointTrackerKeys(&config.points), "", &names);
+  if (config.use_lines) AddNames(LineTrackerKeys(&config.lines), "", &names);
   return names;
 }
 

@@ -72,6 +72,16 @@ class PairFlight(unittest.TestCase):
     def test_depth(self):
         self.assert_uses("depth")
 
+    def test_depths_of_another_unit_change_nothing(self):
+        config = pair_flight.write_config(self.folder, "depth")
+        pair_flight.simulate(SIMULATE, config, "depth", SECONDS, "--output", self.bag)
+        trajectory = self.folder / "results" / "trajectory.tum"
+        summary = self.run_offline(config, "--bag", self.bag, "--set", "depth_unit=0.01")
+        self.assertIn("depths are 10.", summary["findings"][0])
+        estimated = trajectory.read_bytes()
+        self.run_offline(ROOT / "config" / "euroc.yaml", "--bag", self.bag)
+        self.assertEqual(estimated, trajectory.read_bytes())
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/stereo/extrinsics_estimate.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "common/geometry/epipolar_constraint.h"
 #include "common/geometry/robust_weight.h"
 #include "common/geometry/so3.h"
+#include "common/geometry/symmetric_system.h"
 #include "common/geometry/tangent_basis.h"
 
 namespace plm_vins {
@@ -73,9 +73,9 @@ void ExtrinsicsEstimate::Update(const std::vector<StereoMatch>& matches) {
       information += weight * one.gradient * one.gradient.transpose();
       gradient += weight * one.gradient * one.error;
     }
-    const Eigen::LDLT<Matrix> factor(information + prior_);
-    state_ = -factor.solve(gradient);
-    covariance_ = factor.solve(Matrix::Identity());
+    const Matrix posterior = information + prior_;
+    state_ = -SolveSymmetric(posterior, gradient);
+    covariance_ = InverseOfSymmetric(posterior);
   }
   information_ = information;
   gradient_ = gradient;

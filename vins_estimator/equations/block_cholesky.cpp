@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/equations/block_cholesky.h"
 
+#include "common/geometry/small_cholesky.h"
+
 namespace plm_vins {
 namespace {
 
@@ -31,15 +33,16 @@ bool BlockCholesky::Eliminate(int offset, Eigen::MatrixXd* S) {
   block.offset = offset;
   const auto columns = S->block<Eigen::Dynamic, kBlockSize>(0, offset, offset, kBlockSize);
   block.runs = RunsOf(columns);
-  block.factor.compute(
-      Matrix9d(S->block<kBlockSize, kBlockSize>(offset, offset)).selfadjointView<Eigen::Upper>());
-  if (block.factor.info() != Eigen::Success) return false;
+  for (int j = 0; j < kBlockSize; ++j) {
+    for (int i = j; i < kBlockSize; ++i) block.L(i, j) = (*S)(offset + j, offset + i);
+  }
+  if (!FactorizeCholesky(&block.L)) return false;
   block.W.resize(kBlockSize, CountColumns(block.runs));
   for (const ColumnRun& run : block.runs) {
     block.W.middleCols(run.local, run.size) = columns.middleRows(run.dense, run.size).transpose();
   }
   if (!block.runs.empty()) {  // solveInPlace accesses the first element
-    block.factor.matrixL().solveInPlace(block.W);
+    block.L.triangularView<Eigen::Lower>().solveInPlace(block.W);
     SubtractGram(block.W, block.runs, S);
   }
   blocks_.push_back(std::move(block));
@@ -50,7 +53,7 @@ template <typename Matrix>
 void BlockCholesky::SolveHalf(Matrix* x) const {
   for (const Block& block : blocks_) {
     auto own = x->template middleRows<kBlockSize>(block.offset);
-    block.factor.matrixL().solveInPlace(own);
+    block.L.triangularView<Eigen::Lower>().solveInPlace(own);
     for (const ColumnRun& run : block.runs) {
       x->middleRows(run.dense, run.size).noalias() -=
           block.W.middleCols(run.local, run.size).transpose() * own;
@@ -69,7 +72,7 @@ Eigen::VectorXd BlockCholesky::Solve(Eigen::VectorXd b) const {
     for (const ColumnRun& run : block->runs) {
       own.noalias() -= block->W.middleCols(run.local, run.size) * b.segment(run.dense, run.size);
     }
-    block->factor.matrixU().solveInPlace(own);
+    block->L.transpose().triangularView<Eigen::Upper>().solveInPlace(own);
   }
   return b;
 }

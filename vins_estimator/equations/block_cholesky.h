@@ -34,7 +34,7 @@ class BlockCholesky {
 
   struct Block {
     int offset = 0;
-    Eigen::LLT<Matrix9d> factor;  // L L^T of the diagonal block
+    Matrix9d L;                   // Cholesky factor of the diagonal block, lower triangle
     std::vector<ColumnRun> runs;  // columns of the coupled variables
     Rows<kBlockSize> W;           // L^-1 times the block's rows, over the runs
   };

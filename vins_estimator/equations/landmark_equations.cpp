@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/equations/landmark_equations.h"
 
-#include <Eigen/Cholesky>
-
+#include "common/geometry/small_cholesky.h"
 #include "vins_estimator/equations/gram.h"
 #include "vins_estimator/geometry/plucker.h"
 #include "vins_estimator/geometry/point_in_host.h"
@@ -13,14 +12,35 @@ namespace {
 // Keeps the equations of a degenerate landmark solvable; far below any real information.
 constexpr double kMinLandmarkInformation = 1e-9;
 
-// Returns the Cholesky factor of the damped H_ll.
+// Returns the Cholesky factor of the damped H_ll, in the lower triangle.
 template <int kSize>
-Eigen::LLT<Eigen::Matrix<double, kSize, kSize>> DampedFactor(const LandmarkMatrix& H_ll,
-                                                             double damping) {
+Eigen::Matrix<double, kSize, kSize> DampedFactor(const LandmarkMatrix& H_ll, double damping) {
   Eigen::Matrix<double, kSize, kSize> H = H_ll;
   H.diagonal() *= 1.0 + damping;
   H.diagonal().array() += kMinLandmarkInformation;
-  return Eigen::LLT<Eigen::Matrix<double, kSize, kSize>>(H);
+  FactorizeCholesky(&H);
+  return H;
+}
+
+// Replaces W by L^-1 W.
+template <int kSize>
+void SolveRows(const Eigen::Matrix<double, kSize, kSize>& L, Eigen::Index columns, double* W) {
+  for (int j = 0; j < kSize; ++j) {
+    double* __restrict__ row = W + j * columns;
+    for (int k = 0; k < j; ++k) {
+      for (Eigen::Index i = 0; i < columns; ++i) row[i] -= L(j, k) * W[k * columns + i];
+    }
+    const double inverse = 1 / L(j, j);
+    for (Eigen::Index i = 0; i < columns; ++i) row[i] *= inverse;
+  }
+}
+
+template <int kSize>
+LandmarkVector Solve(const LandmarkMatrix& H_ll, double damping, LandmarkVector x) {
+  const auto L = DampedFactor<kSize>(H_ll, damping);
+  L.template triangularView<Eigen::Lower>().solveInPlace(x);
+  L.transpose().template triangularView<Eigen::Upper>().solveInPlace(x);
+  return x;
 }
 
 // Eliminates one landmark of kSize parameters. `memory` is workspace for its H_ld.
@@ -28,12 +48,12 @@ template <int kSize>
 void Eliminate(const LandmarkEquations& equations, double damping, double* memory,
                Eigen::MatrixXd* S, Eigen::VectorXd* g) {
   // H_dl H_ll^-1 H_ld = W^T W with W = L^-1 H_ld.
-  const auto factor = DampedFactor<kSize>(equations.H_ll, damping);
+  const auto L = DampedFactor<kSize>(equations.H_ll, damping);
   Eigen::Map<Rows<kSize>> W(memory, kSize, equations.H_ld.cols());
   W = equations.H_ld;
-  factor.matrixL().solveInPlace(W);
+  SolveRows(L, W.cols(), memory);
   const Eigen::Matrix<double, kSize, 1> w_b =
-      factor.matrixL().solve(equations.b_l.template head<kSize>());
+      L.template triangularView<Eigen::Lower>().solve(equations.b_l.template head<kSize>());
   for (const ColumnRun& run : equations.runs) {
     const auto W_run = W.middleCols(run.local, run.size);
     g->segment(run.dense, run.size).noalias() -= W_run.transpose() * w_b;
@@ -72,9 +92,8 @@ LandmarkVector SolveLandmark(const LandmarkEquations& equations, const Eigen::Ve
     right.noalias() -=
         equations.H_ld.middleCols(run.local, run.size) * dense_step.segment(run.dense, run.size);
   }
-  if (right.size() == kPointSize)
-    return DampedFactor<kPointSize>(equations.H_ll, damping).solve(right);
-  return DampedFactor<kLineTangentSize>(equations.H_ll, damping).solve(right);
+  if (right.size() == kPointSize) return Solve<kPointSize>(equations.H_ll, damping, right);
+  return Solve<kLineTangentSize>(equations.H_ll, damping, right);
 }
 
 }  // namespace plm_vins

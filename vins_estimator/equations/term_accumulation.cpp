@@ -1,116 +1,85 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/equations/term_accumulation.h"
 
-#include <type_traits>
-
-#include "common/camera/camera_model.h"
 #include "vins_estimator/factors/manifolds.h"
-#include "vins_estimator/geometry/plucker.h"
-#include "vins_estimator/geometry/point_in_host.h"
 
 namespace plm_vins {
 namespace {
 
-// Most terms are observations: two rows, with poses, a landmark and possibly intrinsics as
-// variables. Matrix products of fixed size pay off for them.
+// Most terms are observations: two rows, and poses as variables. Loops of fixed length pay off for
+// them.
 constexpr int kViewRows = 2;
+constexpr int kAnySize = 0;
 
-template <int kSize>
-using Size = std::integral_constant<int, kSize>;
-
-// Calls `body` with the size as a constant if it is a common one, otherwise with Eigen::Dynamic.
-template <typename Body>
-void WithFixed(int size, const Body& body) {
-  if (size == kPoseTangentSize) return body(Size<kPoseTangentSize>());
-  if (size == kIntrinsicsSize) return body(Size<kIntrinsicsSize>());
-  body(Size<Eigen::Dynamic>());
-}
+// Columns of a row-major matrix.
+struct Columns {
+  const double* data;
+  int size;
+  int stride;
+};
 
 // Returns the tangent-space Jacobian of a term with respect to one of its variables.
-template <int kRows = Eigen::Dynamic, int kColumns = Eigen::Dynamic>
-auto BlockOf(const TermEvaluation& evaluation, int block, int size, int stride) {
-  using Matrix = Eigen::Matrix<double, kRows, kColumns, Eigen::RowMajor>;
-  return Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>(
-      evaluation.jacobians[block].data(), evaluation.rows, size, Eigen::OuterStride<>(stride));
+Columns JacobianOf(const TermEvaluation& evaluation, const Slot& slot) {
+  return {evaluation.jacobians[slot.block].data(), slot.size, slot.stride};
 }
 
-template <int kRows = Eigen::Dynamic, int kColumns = Eigen::Dynamic>
-auto BlockOf(const TermEvaluation& evaluation, const Slot& slot) {
-  return BlockOf<kRows, kColumns>(evaluation, slot.block, slot.size, slot.stride);
-}
-
-Eigen::Map<const Eigen::VectorXd> ResidualOf(const TermEvaluation& evaluation) {
-  return Eigen::Map<const Eigen::VectorXd>(evaluation.residual.data(), evaluation.rows);
-}
-
-void AddPair(const TermEvaluation& evaluation, const Slot& left, const Slot& right,
-             Eigen::MatrixXd* H) {
-  H->block(left.dense_offset, right.dense_offset, left.size, right.size).noalias() +=
-      BlockOf(evaluation, left).transpose().lazyProduct(BlockOf(evaluation, right));
-}
-
-void AddPairOfView(const TermEvaluation& evaluation, const Slot& left, const Slot& right,
-                   Eigen::MatrixXd* H) {
-  WithFixed(left.size, [&](auto left_size) {
-    WithFixed(right.size, [&](auto right_size) {
-      H->block<left_size, right_size>(left.dense_offset, right.dense_offset, left.size,
-                                      right.size) +=
-          BlockOf<kViewRows, left_size>(evaluation, left)
-              .transpose()
-              .lazyProduct(BlockOf<kViewRows, right_size>(evaluation, right));
-    });
-  });
-}
-
-template <int kSize>
-void AddView(const TermLayout& layout, const TermEvaluation& evaluation,
-             LandmarkEquations* equations) {
-  const auto J_l =
-      BlockOf<kViewRows, kSize>(evaluation, layout.landmark_block, kSize, layout.landmark_stride);
-  for (const Slot& slot : layout) {
-    WithFixed(slot.size, [&](auto size) {
-      equations->H_ld.block<kSize, size>(0, slot.local_offset, kSize, slot.size) +=
-          J_l.transpose().lazyProduct(BlockOf<kViewRows, size>(evaluation, slot));
-    });
+// Plain loops instead of Eigen's products, which take a compiler seconds for each pair of sizes.
+template <int kRows, int kSize>
+void AddProductOf(const Columns& left, const Columns& right, int any_rows, double* __restrict__ sum,
+                  Eigen::Index sum_stride) {
+  const int rows = kRows == kAnySize ? any_rows : kRows;
+  const int size = kSize == kAnySize ? left.size : kSize;
+  for (int j = 0; j < right.size; ++j, sum += sum_stride) {
+    for (int i = 0; i < size; ++i) {
+      double product = left.data[i] * right.data[j];
+      for (int k = 1; k < rows; ++k) {
+        product += left.data[k * left.stride + i] * right.data[k * right.stride + j];
+      }
+      sum[i] += product;
+    }
   }
-  equations->H_ll.topLeftCorner<kSize, kSize>() += J_l.transpose().lazyProduct(J_l);
-  equations->b_l.head<kSize>() += J_l.transpose().lazyProduct(ResidualOf(evaluation));
+}
+
+// Adds left^T right to a column-major matrix.
+void AddProduct(const Columns& left, const Columns& right, int rows, double* sum,
+                Eigen::Index sum_stride) {
+  if (rows == kViewRows && left.size == kPoseTangentSize) {
+    return AddProductOf<kViewRows, kPoseTangentSize>(left, right, rows, sum, sum_stride);
+  }
+  if (rows == kViewRows) {
+    return AddProductOf<kViewRows, kAnySize>(left, right, rows, sum, sum_stride);
+  }
+  AddProductOf<kAnySize, kAnySize>(left, right, rows, sum, sum_stride);
 }
 
 }  // namespace
 
 void AddToDense(const TermLayout& layout, const TermEvaluation& evaluation, Eigen::MatrixXd* H,
                 Eigen::VectorXd* b) {
-  for (const Slot& right : layout) {
-    for (const Slot* left = layout.begin(); left <= &right; ++left) {
-      if (evaluation.rows == kViewRows) {
-        AddPairOfView(evaluation, *left, right, H);
-      } else {
-        AddPair(evaluation, *left, right, H);
-      }
+  const int rows = evaluation.rows;
+  const Columns residual = {evaluation.residual.data(), 1, 1};
+  for (const Slot& slot : layout) {
+    const Columns right = JacobianOf(evaluation, slot);
+    for (const Slot* left = layout.begin(); left <= &slot; ++left) {
+      AddProduct(JacobianOf(evaluation, *left), right, rows,
+                 &(*H)(left->dense_offset, slot.dense_offset), H->outerStride());
     }
-    b->segment(right.dense_offset, right.size) +=
-        BlockOf(evaluation, right).transpose().lazyProduct(ResidualOf(evaluation));
+    AddProduct(right, residual, rows, &(*b)[slot.dense_offset], slot.size);
   }
 }
 
 void AddToLandmark(const TermLayout& layout, const TermEvaluation& evaluation,
                    LandmarkEquations* equations) {
-  const auto size = equations->b_l.size();
-  if (evaluation.rows == kViewRows && size == kPointSize) {
-    return AddView<kPointSize>(layout, evaluation, equations);
+  const int rows = evaluation.rows;
+  const Columns residual = {evaluation.residual.data(), 1, 1};
+  const Columns own = {evaluation.jacobians[layout.landmark_block].data(),
+                       static_cast<int>(equations->b_l.size()), layout.landmark_stride};
+  for (const Slot& slot : layout) {  // H_ld is row-major: its transpose is column-major
+    AddProduct(JacobianOf(evaluation, slot), own, rows, equations->H_ld.data() + slot.local_offset,
+               equations->H_ld.outerStride());
   }
-  if (evaluation.rows == kViewRows && size == kLineTangentSize) {
-    return AddView<kLineTangentSize>(layout, evaluation, equations);
-  }
-  const auto J_l =
-      BlockOf(evaluation, layout.landmark_block, static_cast<int>(size), layout.landmark_stride);
-  for (const Slot& slot : layout) {
-    equations->H_ld.middleCols(slot.local_offset, slot.size).noalias() +=
-        J_l.transpose().lazyProduct(BlockOf(evaluation, slot));
-  }
-  equations->H_ll.noalias() += J_l.transpose().lazyProduct(J_l);
-  equations->b_l.noalias() += J_l.transpose().lazyProduct(ResidualOf(evaluation));
+  AddProduct(own, own, rows, equations->H_ll.data(), equations->H_ll.outerStride());
+  AddProduct(own, residual, rows, equations->b_l.data(), own.size);
 }
 
 }  // namespace plm_vins

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/geometry/line_fit.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "common/geometry/so3.h"
+#include "common/geometry/symmetric_system.h"
 
 namespace plm_vins {
 namespace {
@@ -59,7 +59,7 @@ std::optional<LineFit> Evaluate(const std::vector<LineCamera>& cameras, double n
 // A prior of one radian on each tangent coordinate keeps the covariance finite.
 Eigen::Matrix4d Covariance(const LineFit& fit) {
   const Eigen::Matrix4d information = fit.information + Eigen::Matrix4d::Identity();
-  return information.ldlt().solve(Eigen::Matrix4d::Identity());
+  return InverseOfSymmetric(information);
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ std::optional<LineFit> FitLine(const std::vector<PosedLineObservation>& observat
   for (int i = 0; fit && i < kMaxIterations; ++i) {
     Eigen::Matrix4d H = fit->information;
     H.diagonal() *= 1.0 + damping;
-    const Eigen::Vector4d step = -H.ldlt().solve(fit->gradient);
+    const Eigen::Vector4d step = -SolveSymmetric(H, fit->gradient);
     if (!step.allFinite()) return std::nullopt;
     OrthonormalLine moved;
     LinePlus(fit->line.data(), step.data(), moved.data());

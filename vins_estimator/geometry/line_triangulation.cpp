@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/geometry/line_triangulation.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/symmetric_system.h"
 #include "vins_estimator/geometry/depth_limits.h"
 
 namespace plm_vins {
@@ -83,7 +83,7 @@ Eigen::Vector3d PlaneAcross(const Eigen::Vector2d& end_point, const SegmentEndPo
 bool IsDepthKnown(const LineTriangulationOptions& options, const LineFit& fit,
                   const SegmentEndPoints& segment) {
   const LineEnds ends = EndsOf(ToPlucker(fit.line.data()), segment);
-  const Matrix4d covariance = fit.information.ldlt().solve(Matrix4d::Identity());
+  const Matrix4d covariance = InverseOfSymmetric(fit.information);
   const double start =
       DepthDeviation(covariance, fit.line, PlaneAcross(segment.start, segment), ends.start);
   const double end =

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/imu/preintegration.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "common/geometry/small_cholesky.h"
 #include "common/geometry/so3.h"
 #include "common/imu/imu_gap.h"
 
@@ -238,13 +238,11 @@ FrameState Preintegration::Predict(const FrameState& start,
 const Matrix15d& Preintegration::SqrtInformation() const {
   if (sqrt_information_valid_) return sqrt_information_;
   // Cholesky from the last row upwards: covariance = V V^T with V upper triangular, hence U = V^-1.
-  const Matrix15d reversed = Covariance().reverse();
-  const Eigen::LLT<Matrix15d> llt(reversed);
-  if (llt.info() != Eigen::Success) {
+  Matrix15d lower = Covariance().reverse();
+  if (!FactorizeCholesky(&lower)) {
     throw std::logic_error(
         "Preintegration: covariance is singular (no interval yet, or a noise density is zero)");
   }
-  const Matrix15d lower = llt.matrixL();
   const Matrix15d upper = lower.reverse();
   sqrt_information_ = upper.triangularView<Eigen::Upper>().solve(Matrix15d::Identity());
   sqrt_information_valid_ = true;

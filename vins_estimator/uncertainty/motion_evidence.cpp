@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/uncertainty/motion_evidence.h"
 
-#include <Eigen/Cholesky>
-
+#include "common/geometry/small_cholesky.h"
 #include "vins_estimator/factors/imu_factor.h"
 
 namespace plm_vins {
@@ -32,6 +31,14 @@ std::optional<Matrix15d> SolutionCovariance(int64_t begin_ns, int64_t end_ns,
   return J * *states * J.transpose();
 }
 
+// Returns (L L^T)^-1 x; L is in the lower triangle.
+template <typename Matrix>
+Matrix Solve(const Matrix15d& L, Matrix x) {
+  L.triangularView<Eigen::Lower>().solveInPlace(x);
+  L.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
+  return x;
+}
+
 }  // namespace
 
 std::optional<ImuNoiseEvidence> EvidenceOfMotion(const Preintegration& motion,
@@ -42,9 +49,10 @@ std::optional<ImuNoiseEvidence> EvidenceOfMotion(const Preintegration& motion,
   const Vector15d residual = ImuResidual(motion, gravity_W, begin, end, &jacobians);
   const auto known = SolutionCovariance(begin.t_ns, end.t_ns, jacobians, equations);
   if (!known) return std::nullopt;
-  const Eigen::LLT<Matrix15d> assumed(motion.Covariance());
-  const Vector15d weighted = assumed.solve(residual);
-  const Matrix15d P = assumed.solve(Matrix15d::Identity() - assumed.solve(*known).transpose());
+  Matrix15d L = motion.Covariance();
+  FactorizeCholesky(&L);
+  const Vector15d weighted = Solve(L, residual);
+  const Matrix15d P = Solve(L, Matrix15d(Matrix15d::Identity() - Solve(L, *known).transpose()));
   const auto evidence = [&](double density, const ImuNoise& source) {
     const Matrix15d S_k = CovarianceFrom(source, motion);
     const Matrix15d P_S_k = P * S_k;

@@ -32,7 +32,8 @@ TEST(EffectiveValues, HoldEveryKey) {
   const Config config =
       Load(folder, kVinsMonoFile, {{"line_anchors", "7"}, {"estimate_extrinsic", "2"}});
   const Values values = ValuesOf(config);
-  EXPECT_EQ(values.size(), AllKeys({"PINHOLE"}).size());
+  Config other;
+  EXPECT_EQ(values.size(), AllKeys({"PINHOLE"}, &other).size());
   EXPECT_EQ(values.at("image_topic"), ConfigValue(std::string("/cam0/image_raw")));
   EXPECT_EQ(values.at("projection_parameters.fx"), ConfigValue(461.6));
   EXPECT_EQ(values.at("line_anchors"), ConfigValue(7));

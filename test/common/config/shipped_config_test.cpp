@@ -78,8 +78,8 @@ class ReferenceFile : public ::testing::Test {
   }
 
   // Returns whether the key has a unit: numbers and matrices do, flags, choices and texts do not.
-  static bool IsMeasured(const ConfigKey<Config>& key) {
-    const ConfigValue value = key.value(Config());
+  static bool IsMeasured(const ConfigKey& key) {
+    const ConfigValue value = key.value();
     return std::holds_alternative<double>(value) ||
            std::holds_alternative<std::vector<double>>(value) ||
            key.allowed.find(" to ") != std::string::npos;
@@ -92,18 +92,20 @@ class ReferenceFile : public ::testing::Test {
 
 TEST_F(ReferenceFile, HasAllKeysAndNoOthers) {
   std::vector<std::string> known, documented;
-  for (const auto& key : AllKeys({"PINHOLE"})) known.push_back(key.name);
+  Config config;
+  for (const auto& key : AllKeys({"PINHOLE"}, &config)) known.push_back(key.name);
   for (const auto& [name, entry] : entries_) documented.push_back(name);
   EXPECT_THAT(documented, ::testing::UnorderedElementsAreArray(known));
 }
 
 TEST_F(ReferenceFile, StatesUnitRangeAndDefault) {
-  for (const auto& key : AllKeys({"PINHOLE"})) {
+  Config config;
+  for (const auto& key : AllKeys({"PINHOLE"}, &config)) {
     const std::string unit =
         IsMeasured(key) ? "[" + (key.unit.empty() ? "1" : key.unit) + "], " : "";
     const std::string comment = CommentOn(key.name);
     EXPECT_NE(comment.find(unit + key.allowed), std::string::npos) << key.name << ": " << comment;
-    const std::string standard = "default " + ToText(key.value(Config()));
+    const std::string standard = "default " + ToText(key.value());
     const size_t found = (comment + " ").find(standard);
     EXPECT_EQ(found != std::string::npos, key.has_default) << key.name << ": " << comment;
     if (!key.has_default) continue;
@@ -113,11 +115,12 @@ TEST_F(ReferenceFile, StatesUnitRangeAndDefault) {
 }
 
 TEST_F(ReferenceFile, HasTheDefaultsAsValues) {
-  for (const auto& key : AllKeys({"PINHOLE"})) {
+  Config config;
+  for (const auto& key : AllKeys({"PINHOLE"}, &config)) {
     // The noise values are densities; there is no mask.
     if (key.name == "imu_noise_model" || key.name == "fisheye" || !key.has_default) continue;
     const std::string value = entries_.at(key.name).value.Scalar();
-    EXPECT_EQ(ToText(ConfigValue(value)), ToText(key.value(Config()))) << key.name;
+    EXPECT_EQ(ToText(ConfigValue(value)), ToText(key.value())) << key.name;
   }
 }
 
@@ -128,7 +131,8 @@ TEST_F(ReferenceFile, NamesTheKeysOfTheOtherCameraModels) {
   }
   for (const char* model_type : {"EQUIDISTANT", "KANNALA_BRANDT", "MEI"}) {
     EXPECT_NE(comments.find(std::string("# ") + model_type + " "), std::string::npos);
-    for (const auto& key : AllKeys({model_type})) {
+    Config config;
+    for (const auto& key : AllKeys({model_type}, &config)) {
       if (key.name.find('.') == std::string::npos) continue;
       const std::string last_part = key.name.substr(key.name.find('.') + 1);
       EXPECT_NE(comments.find(last_part), std::string::npos) << key.name;
@@ -141,7 +145,8 @@ TEST_F(ReferenceFile, NamesTheKeysOfTheOtherCameras) {
   for (const std::string& line : lines_) {
     if (line.rfind('#', 0) == 0) comments += line + " ";
   }
-  for (const auto& key : AllKeys({"PINHOLE", "MEI"})) {
+  Config config;
+  for (const auto& key : AllKeys({"PINHOLE", "MEI"}, &config)) {
     const std::string name = key.name.substr(0, key.name.find('.'));
     EXPECT_TRUE(entries_.count(key.name) > 0 || comments.find(name) != std::string::npos) << name;
   }

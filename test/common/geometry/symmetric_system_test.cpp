@@ -21,8 +21,15 @@ void ExpectSolution() {
 
 TEST(SymmetricSystem, IsSolvedForEverySize) {
   ExpectSolution<3>();
+  ExpectSolution<4>();
   ExpectSolution<5>();
   ExpectSolution<6>();
+}
+
+TEST(SymmetricSystem, IsInverted) {
+  const Eigen::Matrix3d A = Eigen::Vector3d(1, 0, -2) * Eigen::RowVector3d(1, 0, -2) +
+                            Eigen::Matrix3d(Eigen::Vector3d(3, 4, 5).asDiagonal());
+  EXPECT_MATRIX_NEAR(InverseOfSymmetric(A) * A, Eigen::Matrix3d::Identity(), 1e-12);
 }
 
 }  // namespace

@@ -236,7 +236,7 @@ TEST_F(ConfigTest, OutOfRange) {
   ExpectProblem("imu_rate: 20", {"\"20\" out of range, must be 25 to 10000 [Hz]"});
   ExpectProblem("td: -1.5", {"must be -1 to 1 [s]"});
   ExpectProblem("g_norm: 981", {"must be 9 to 10.5 [m/s^2]"});
-  ExpectProblem("max_line_cnt: 0", {"must be 1 to 5000 [lines] (default 60)"});
+  ExpectProblem("max_line_cnt: 0", {"must be 1 to 5000 [lines] (default 45)"});
 }
 
 TEST_F(ConfigTest, NotFinite) {

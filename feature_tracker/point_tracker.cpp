@@ -116,6 +116,8 @@ class PointTracker::Implementation {
     return depth.empty() && stereo_ ? stereo_->Finding() : depth;
   }
   double StillShare() const { return still_parts_.largest_share(); }
+  void LearnFrom(const Implementation& earlier) { still_parts_.LearnFrom(earlier.still_parts_); }
+  bool HasLearned() const { return still_parts_.has_learned(); }
   cv::Mat DrawTracks() const { return DrawPointTracks(sample_.gray, tracks_); }
 
  private:
@@ -380,6 +382,12 @@ std::string PointTracker::StillPartsFinding() const {
       "(fisheye_mask)",
       100 * share);
 }
+
+void PointTracker::LearnFrom(const PointTracker& earlier) {
+  implementation_->LearnFrom(*earlier.implementation_);
+}
+
+bool PointTracker::HasLearned() const { return implementation_->HasLearned(); }
 
 cv::Mat PointTracker::DrawTracks() const { return implementation_->DrawTracks(); }
 

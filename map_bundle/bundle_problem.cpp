@@ -27,10 +27,6 @@ constexpr double kAccelBiasDeviation = 0.1;  // [m/s^2]
 constexpr double kGyroBiasDeviation = 0.05;  // [rad/s]
 constexpr double kStillVelocity = 0.005;     // at standstill [m/s]
 
-bool AreOfOneFlight(const BundleKeyframe& a, const BundleKeyframe& b) {
-  return a.world == b.world && a.recording == b.recording;
-}
-
 // Builds the bundle adjustment as a WindowProblem and writes its solution back to `bundle`.
 class BundleProblem {
  public:
@@ -96,22 +92,20 @@ void BundleProblem::AddVariables() {
 }
 
 void BundleProblem::AddMotions() {
-  int before = -1;  // the previous keyframe; -1 if it is fixed
+  const BundleKeyframe* before = nullptr;
+  int number_before = -1;
   for (const auto& [number, keyframe] : bundle_->keyframes) {
-    if (!keyframe.moves()) {
-      before = -1;
-      continue;
-    }
-    if (before >= 0 && AreOfOneFlight(bundle_->keyframes.at(before), keyframe)) {
-      AddImu(before, number);
-    } else {
+    if (before != nullptr && HasMotionBetween(*before, keyframe)) {
+      AddImu(number_before, number);
+    } else if (keyframe.moves()) {
       problem_.AddTerm(BiasPrior(keyframe.start.bias(), kAccelBiasDeviation, kGyroBiasDeviation),
                        nullptr, {Motion(number)});
     }
-    if (keyframe.stationary) {
+    if (keyframe.moves() && keyframe.stationary) {
       problem_.AddTerm(ZeroVelocityFactor(kStillVelocity), nullptr, {Motion(number)});
     }
-    before = number;
+    before = &keyframe;
+    number_before = number;
   }
 }
 

@@ -38,6 +38,15 @@ struct BundleKeyframe {
   bool moves() const { return noise.has_value(); }
 };
 
+// Longer intervals between keyframes have no IMU factor: it would say nothing about the positions.
+constexpr int64_t kLongestMotion_ns = 10'000'000'000;
+
+// Returns whether an IMU factor connects two keyframes that follow each other.
+inline bool HasMotionBetween(const BundleKeyframe& from, const BundleKeyframe& to) {
+  return from.moves() && to.moves() && from.world == to.world && from.recording == to.recording &&
+         to.state.t_ns - from.state.t_ns <= kLongestMotion_ns;
+}
+
 // Variables of the bundle adjustment: keyframe states in M, by keyframe number, and landmarks with
 // their observations. Extrinsics are held fixed.
 struct BundleState {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -18,16 +19,19 @@ class ImuHistory {
   // Ignores a repeated timestamp.
   void Add(const ImuSample& sample);
 
+  // Drops the samples that only times strictly between these two need.
+  void Forget(int recording, int64_t from_ns, int64_t to_ns);
+
   // Number of the newest sample's recording; -1 if there are no samples.
   int newest() const { return static_cast<int>(recordings_.size()) - 1; }
 
   // Preintegrates the samples between two times of a recording, interpolated at both ends. Returns
-  // nullopt if the samples do not cover the interval.
+  // nullopt if the samples do not cover the interval. None of them may have been dropped.
   std::optional<Preintegration> Between(int recording, int64_t from_ns, int64_t to_ns,
                                         const ImuNoise& noise, const ImuBias& bias) const;
 
  private:
-  std::vector<std::vector<ImuSample>> recordings_;  // each in temporal order
+  std::vector<std::deque<ImuSample>> recordings_;  // each in temporal order
 };
 
 }  // namespace plm_vins

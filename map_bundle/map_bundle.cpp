@@ -2,6 +2,7 @@
 #include "map_bundle/map_bundle.h"
 
 #include <algorithm>
+#include <iterator>
 #include <unordered_map>
 
 #include "common/append.h"
@@ -44,6 +45,7 @@ std::vector<KeyframeObservation> OthersOf(const PointFrame& frame,
 
 void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry, int64_t imu_ns,
                             const PointFrame& points) {
+  ForgetRemoved(map);
   const int newest = map.graph.size() - 1;
   BundleKeyframe& keyframe = keyframes_[newest];
   keyframe.world = map.keyframes[newest].world;
@@ -53,6 +55,31 @@ void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odome
   keyframe.noise = odometry.imu_noise;
   keyframe.stationary = odometry.stationary;
   keyframe.observations = OthersOf(points, odometry.points);
+}
+
+void MapBundle::ForgetRemoved(const KeyframeMap& map) {
+  const std::vector<int> kept = map.graph.Kept();
+  for (auto next = keyframes_.begin(); next != keyframes_.end();) {
+    if (std::binary_search(kept.begin(), kept.end(), next->first)) {
+      ++next;
+      continue;
+    }
+    next = keyframes_.erase(next);
+    if (next == keyframes_.begin() || next == keyframes_.end()) continue;
+    const BundleKeyframe &from = std::prev(next)->second, &to = next->second;
+    if (from.recording == to.recording && !HasMotionBetween(from, to)) {
+      imu_.Forget(from.recording, from.state.t_ns, to.state.t_ns);
+    }
+  }
+  for (auto& [keyframes, place] : places_) {
+    const auto is_useless = [&](const Reobservation& again) {
+      return !std::binary_search(kept.begin(), kept.end(), again.observation.keyframe);
+    };
+    std::vector<Reobservation>& observations = place.observations;
+    observations.erase(std::remove_if(observations.begin(), observations.end(), is_useless),
+                       observations.end());
+    observations.shrink_to_fit();
+  }
 }
 
 void MapBundle::AddLoops(const KeyframeMap& map, const LoopClosure& closure) {

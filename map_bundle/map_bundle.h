@@ -77,6 +77,8 @@ class MapBundle {
     bool counts = false;
   };
 
+  // Drops what only keyframes that the map has removed need.
+  void ForgetRemoved(const KeyframeMap& map);
   void AddPlace(const KeyframeMap& map, const RecognizedPlace& place, bool counts);
   void SetCounts(int a, int b, bool counts);
   size_t CountPlaces() const;

@@ -16,6 +16,7 @@ constexpr double kManyDropped = 0.1;
 // Returns the origin of the dropped input, if the cause of the drop identifies it.
 std::string Origin(const DropCount& drop, const Source& source) {
   const auto begins_with = [&](const char* word) { return drop.cause.rfind(word, 0) == 0; };
+  if (begins_with("images_without_")) return "";
   return begins_with("image") ? source.images : begins_with("imu") ? source.imu : "";
 }
 
@@ -48,9 +49,19 @@ std::string MostWrong(const RunSummary::Run& run, const Source& source, const Ru
   return restart.empty() ? WorstDrop(run, source) : restart;
 }
 
+// Returns why most images are of no use; empty if they are.
+std::string ImageFault(const RunSummary::Run& run) {
+  const auto is_of_most = [&](const DropCount& drop) {
+    return drop.cause.rfind("images", 0) == 0 && 2 * drop.count > run.images;
+  };
+  const auto found = std::find_if(run.drops.begin(), run.drops.end(), is_of_most);
+  return found == run.drops.end() ? "" : ToString(*found);
+}
+
 std::string WhyNone(const RunSummary::Run& run, const OdometryPipeline& pipeline,
                     const RunSummary& summary) {
-  for (std::string finding : {pipeline.InputFinding(), pipeline.StillPartsFinding()}) {
+  for (std::string finding :
+       {pipeline.InputFinding(), pipeline.StillPartsFinding(), ImageFault(run)}) {
     if (!finding.empty()) return finding;
   }
   if (!summary.last_reason().empty()) return summary.last_reason();

@@ -228,15 +228,43 @@ int ReportInterruption(const OdometryPipeline& pipeline, const Cuts& cuts) {
   return 128 + Interruption();
 }
 
-Source Fly(const Arguments& arguments, Input* input, OdometryPipeline* pipeline, Outputs* outputs,
-           Cuts* cuts) {
-  const auto on_frame = [outputs](const PipelineFrame& frame) { outputs->Add(frame); };
-  if (outputs->features) pipeline->SaveFeatures(&*outputs->features);
-  ShowTracks(arguments.track_image_interval, &outputs->results, pipeline);
-  WatchForInterruption();
-  pipeline->EndWhere([cuts] { return cuts->recording = Interruption() != 0; });
-  return input->features ? RunFromFeatures(arguments, &*input->features, on_frame, pipeline)
-                         : RunFromImages(arguments, input->recording.get(), on_frame, pipeline);
+// A run over the recording from its first image on.
+struct Flight {
+  Input input;
+  std::unique_ptr<OdometryPipeline> pipeline;
+  Outputs outputs;
+  Source source;
+
+  // Inputs that may be missing are opened first, so that failure leaves earlier results unchanged.
+  Flight(const Arguments& arguments, const Config& config)
+      : input(Open(arguments, config.sensor)),
+        pipeline(std::make_unique<OdometryPipeline>(config)),
+        outputs(arguments, config, input.features, MapToStartIn(arguments, config.pose_graph)) {}
+
+  void Estimate(const Arguments& arguments, Cuts* cuts) {
+    const auto on_frame = [this](const PipelineFrame& frame) { outputs.Add(frame); };
+    if (outputs.features) pipeline->SaveFeatures(&*outputs.features);
+    ShowTracks(arguments.track_image_interval, &outputs.results, pipeline.get());
+    WatchForInterruption();
+    pipeline->EndWhere([cuts] { return cuts->recording = Interruption() != 0; });
+    source = input.features
+                 ? RunFromFeatures(arguments, &*input.features, on_frame, pipeline.get())
+                 : RunFromImages(arguments, input.recording.get(), on_frame, pipeline.get());
+  }
+};
+
+// Flies from the first image on, and again if a stated length turns out to be wrong meanwhile, so
+// that no result depends on it.
+std::unique_ptr<Flight> Fly(const Arguments& arguments, const Config& config, Cuts* cuts) {
+  std::unique_ptr<OdometryPipeline> earlier;
+  while (true) {
+    auto flight = std::make_unique<Flight>(arguments, config);
+    if (earlier) flight->pipeline->LearnFrom(*earlier);
+    flight->Estimate(arguments, cuts);
+    if (!flight->pipeline->must_repeat() || cuts->recording) return flight;
+    std::fprintf(stderr, "a stated length is wrong: beginning again, without it\n");
+    earlier = std::move(flight->pipeline);
+  }
 }
 
 // Completes the files in the result folder; the summary, which marks them as complete, comes last.
@@ -256,28 +284,31 @@ int Run(const Arguments& arguments) {
   const Config config = Configure(arguments);
   CheckCalibrationOutput(arguments, config.sensor);
   for (const std::string& warning : config.warnings) Warn(warning);
-  // Inputs that may be missing are opened first, so that failure leaves earlier results unchanged.
-  Input input = Open(arguments, config.sensor);
-  Json summary_parts = Json::object();
-  if (input.features) CheckFeatures(*input.features, config, &summary_parts);
-  OdometryPipeline pipeline(config);
-  Outputs outputs(arguments, config, input.features, MapToStartIn(arguments, config.pose_graph));
   const Stopwatch stopwatch;
   Cuts cuts;
-  const Source source = Fly(arguments, &input, &pipeline, &outputs, &cuts);
-  RunSummary::Run run = Describe(source, pipeline);
+  const std::unique_ptr<Flight> flight = Fly(arguments, config, &cuts);
+  const OdometryPipeline& pipeline = *flight->pipeline;
+  Outputs& outputs = flight->outputs;
+  Json summary_parts = Json::object();
+  if (flight->input.features) CheckFeatures(*flight->input.features, config, &summary_parts);
+  RunSummary::Run run = Describe(flight->source, pipeline);
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
   // Outputs that may be on another disk or take long are saved before the rest.
   std::string failures;
   if (outputs.features) Try([&] { outputs.features->Close(); }, &failures);
   if (outputs.loops && !cuts.recording) Try([&] { AdjustMap(&*outputs.loops, &cuts); }, &failures);
+  if (outputs.loops) {
+    std::fprintf(stderr, "%s\n", outputs.loops->Line().c_str());
+    const std::string finding = outputs.loops->Finding();
+    if (!finding.empty()) run.findings.push_back(finding);
+  }
   if (outputs.map) {
     Try([&] { SaveMapTo(arguments.map_out, outputs.loops->map(), &*outputs.map); }, &failures);
   }
   int exit_code = 1;
   const auto finish = [&] {
     Finish(run, config, pipeline, summary_parts, &outputs);
-    exit_code = Report(run, source, pipeline, outputs.report, outputs.results);
+    exit_code = Report(run, flight->source, pipeline, outputs.report, outputs.results);
   };
   Try(finish, &failures);
   if (!failures.empty()) throw std::runtime_error(failures);

@@ -15,29 +15,13 @@ namespace {
 
 // Newer images that end the wait if the gyroscope did not reach the previous image either.
 constexpr size_t kMaxWaiting = 2;
-constexpr double kMostTolerance = 0.02;       // that the configuration allows [s]
 constexpr int64_t kMaxWait_ns = 500'000'000;  // longest wait otherwise, up to the newest image
-
-std::string Nearest(int64_t t_ns, const std::optional<int64_t>& last_ns) {
-  if (!last_ns) return "none has come yet";
-  const double later = 1e3 * ToSeconds(*last_ns - t_ns);
-  return Format("the last one's timestamp is %.1f ms %s", std::abs(later),
-                later < 0 ? "earlier" : "later");
-}
 
 }  // namespace
 
-std::optional<double> ConstantOffset::Add(double later) {
-  constexpr double kJitter = 2e-4;  // [s]
-  constexpr int kInARow = 20;
-  in_a_row_ = std::abs(later - last_) < kJitter ? in_a_row_ + 1 : 0;
-  last_ = later;
-  return in_a_row_ == kInARow ? std::optional(later) : std::nullopt;
-}
-
-OtherImageCounts::OtherImageCounts(int camera) {
+OtherImageCounts::OtherImageCounts(int camera)
+    : missing("images_without_camera" + std::to_string(camera)) {
   const std::string name = "camera" + std::to_string(camera);
-  missing.cause = "images_without_" + name;
   repeated.cause = name + "_images_repeated";
   unusable.cause = name + "_images_wrong_format";
 }
@@ -53,11 +37,12 @@ DropCounts ToDropCounts(const ImageCounts& counts) {
     if (drop.count > 0) drops.push_back(drop);
   };
   for (const OtherImageCounts& other : counts.others) {
-    add(other.missing);
+    add(other.missing.count());
     add(other.repeated);
     add(other.unusable);
   }
-  add(counts.without_depth);
+  add(counts.flat);
+  add(counts.without_depth.count());
   add(counts.depth_unusable);
   return drops;
 }
@@ -81,11 +66,13 @@ ImageQueue::ImageQueue(const Config& config, double max_wait)
 void ImageQueue::AddImage(int camera, ImageSample image) {
   if (camera == 0) return AddImageOfFirst(std::move(image));
   if (camera > static_cast<int>(others_.size())) return;
+  const int64_t t_ns = image.t_ns;
   try {
     if (!image.gray.empty()) CheckImageFormat(image.gray, sensor_.cameras[camera].parameters);
     others_[camera - 1].waiting.Add(std::move(image));
   } catch (const std::invalid_argument& error) {
     counts_.others[camera - 1].unusable.Add(error.what());
+    counts_.others[camera - 1].missing.AddUnusable(t_ns, error.what());
   }
 }
 
@@ -106,6 +93,8 @@ void ImageQueue::AddImageOfFirst(ImageSample image) {
 bool ImageQueue::AcceptFormat(const ImageSample& image) {
   try {
     CheckImageFormat(image.gray, sensor_.cameras[0].parameters);
+    const std::string flat = DescribeIfFlat(image.gray);
+    if (!flat.empty()) counts_.flat.Add(flat);
     return true;
   } catch (const std::invalid_argument& error) {
     if (counts_.wrong_format++ == 0) counts_.wrong_format_detail = error.what();
@@ -115,11 +104,13 @@ bool ImageQueue::AcceptFormat(const ImageSample& image) {
 
 void ImageQueue::AddDepth(DepthSample image) {
   if (!sensor_.depth) return;
+  const int64_t t_ns = image.t_ns;
   try {
     CheckDepthFormat(image.depth, sensor_.cameras[0].parameters);
     depth_.Add(std::move(image));
   } catch (const std::invalid_argument& error) {
     counts_.depth_unusable.Add(error.what());
+    counts_.without_depth.AddUnusable(t_ns, error.what());
   }
 }
 
@@ -136,39 +127,24 @@ void ImageQueue::TakeOthers(ReadyImage* ready) {
   for (size_t i = 0; i < others_.size(); ++i) {
     const int camera = static_cast<int>(i) + 1;
     auto image = others_[i].waiting.Take(t_ns);
+    MissingImages& missing = counts_.others[i].missing;
     if (!image) {
-      AddMissing(t_ns, camera);
-    } else if (ready->publish || IsTracked(camera, pairs_)) {
+      missing.AddMissing(t_ns, others_[i].waiting.last_ns());
+      continue;
+    }
+    missing.AddPaired(t_ns);
+    if (ready->publish || IsTracked(camera, pairs_)) {
       ready->images[camera] = std::move(*image);
       DropRepeated(camera, &ready->images);
     }
   }
-  auto depth = depth_.Take(t_ns);
-  if (sensor_.depth && !depth) {
-    const bool all_unusable = !depth_.last_ns() && counts_.depth_unusable.count > 0;
-    counts_.without_depth.Add(all_unusable ? counts_.depth_unusable.detail
-                                           : Nearest(t_ns, depth_.last_ns()));
+  if (!sensor_.depth) return;
+  if (auto depth = depth_.Take(t_ns)) {
+    counts_.without_depth.AddPaired(t_ns);
+    ready->depth = std::move(*depth);
+  } else {
+    counts_.without_depth.AddMissing(t_ns, depth_.last_ns());
   }
-  if (depth) ready->depth = std::move(*depth);
-}
-
-// Names the cause: images of another size, or timestamps that are a constant time apart.
-void ImageQueue::AddMissing(int64_t t_ns, int camera) {
-  OtherImageCounts& counts = counts_.others[camera - 1];
-  OtherCamera& other = others_[camera - 1];
-  const auto& last_ns = other.waiting.last_ns();
-  counts.missing.Add(last_ns || counts.unusable.count == 0 ? Nearest(t_ns, last_ns)
-                                                           : counts.unusable.detail);
-  if (!last_ns) return;
-  const auto later = other.offset.Add(ToSeconds(*last_ns - t_ns));
-  if (!later) return;
-  const double least = 1e-3 * std::ceil(1e3 * std::abs(*later) + 0.5);
-  counts.missing.detail =
-      Format("its timestamps are a constant %.1f", 1e3 * std::abs(*later)) +
-      (*later < 0 ? " ms earlier than those of camera 0; " : " ms later than those of camera 0; ") +
-      (least <= kMostTolerance
-           ? Format("if one clock stamps both, set stamp_tolerance: %.3f", least)
-           : std::string("are the cameras triggered in turn? They must be triggered together"));
 }
 
 // Observations in repeated images contradict the motion of camera 0.

@@ -15,6 +15,7 @@
 #include "common/streams/drop_counts.h"
 #include "common/streams/stamp_order.h"
 #include "tracking/gyro_predictor.h"
+#include "tracking/missing_images.h"
 #include "tracking/pairing_queue.h"
 #include "tracking/rate_limiter.h"
 
@@ -32,23 +33,12 @@ struct ReadyImage {
   bool publish = true;   // false: not for the estimator, by the rate `freq`
 };
 
-// Tells whether timestamps differ from those of camera 0 by the same time again and again.
-class ConstantOffset {
- public:
-  // Adds a difference [s]. Returns it if it has been the same, within 0.2 ms, twenty times in a
-  // row; only once.
-  std::optional<double> Add(double later);
-
- private:
-  double last_ = 0;
-  int in_a_row_ = 0;
-};
-
 // Faults of the images of a camera other than 0.
 struct OtherImageCounts {
   explicit OtherImageCounts(int camera);
 
-  DropCount missing, repeated, unusable;
+  MissingImages missing;
+  DropCount repeated, unusable;
 };
 
 // Counts of received images of camera 0 and their faults since construction.
@@ -62,8 +52,9 @@ struct ImageCounts {
   int64_t without_gyro = 0;  // returned without R_now_then, since the gyroscope did not cover it
   int64_t too_late = 0;      // dropped after waiting for too long; not in ToDropCounts()
   std::string wrong_format_detail;
-  std::vector<OtherImageCounts> others;  // of cameras 1, 2, ...
-  DropCount without_depth{"images_without_depth", 0, ""};
+  DropCount flat{"images_without_contrast", 0, ""};  // tracked nevertheless
+  std::vector<OtherImageCounts> others;              // of cameras 1, 2, ...
+  MissingImages without_depth{"images_without_depth"};
   DropCount depth_unusable{"depth_images_wrong_format", 0, ""};
 };
 
@@ -113,7 +104,6 @@ class ImageQueue {
     explicit OtherCamera(double tolerance) : waiting(tolerance) {}
 
     PairingQueue<ImageSample> waiting;
-    ConstantOffset offset;            // of its timestamps, where they do not match
     ImageSample last, last_of_first;  // the last pair that was searched, with camera 0
   };
 
@@ -123,7 +113,6 @@ class ImageQueue {
   bool IsComplete(int64_t t_ns) const;
   void DropTooLate();
   void TakeOthers(ReadyImage* ready);
-  void AddMissing(int64_t t_ns, int camera);
   void DropRepeated(int camera, std::vector<ImageSample>* images);
 
   SensorConfig sensor_;

@@ -256,6 +256,12 @@ std::string EstimationStage::SensorFaults() const {
   return DescribeFaults(world_->newest.cameras, world_->newest.depth);
 }
 
+void EstimationStage::LearnFrom(const EstimationStage& earlier) {
+  lengths_ = std::make_unique<StatedLengths>(*earlier.lengths_);
+  lengths_->StartOver();
+  estimator_ = std::make_unique<Estimator>(lengths_->Usable(config_));
+}
+
 void EstimationStage::Reset(const std::string& reason) {
   sync_.Clear();
   StartOver(reason);
@@ -274,6 +280,7 @@ void EstimationStage::StartOver(const std::string& reason) {
 }
 
 void EstimationStage::RepeatWithoutWrongLengths() {
+  has_found_wrong_length_ = true;
   estimator_ = std::make_unique<Estimator>(lengths_->Usable(config_));
   for (const FrameMeasurement& image : lengths_->images()) {
     estimator_->Process(lengths_->Usable(image));
@@ -291,7 +298,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
     measurement->points.points.clear();
     measurement->lines.reset();
   }
-  if (lengths_->Add(*measurement)) RepeatWithoutWrongLengths();
+  if (lengths_->Add(*measurement, world_->newest)) RepeatWithoutWrongLengths();
   *measurement = lengths_->Usable(std::move(*measurement));
   EstimatedFrame frame;
   frame.output = estimator_->Process(*measurement);

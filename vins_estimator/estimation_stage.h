@@ -57,6 +57,13 @@ class EstimationStage {
   // To be called instead of Pop() after the end of the input.
   std::optional<EstimatedFrame> Flush() { return Process(sync_.Flush()); }
 
+  // Ignores from the start the lengths that another run over the same input found wrong.
+  void LearnFrom(const EstimationStage& earlier);
+
+  // Returns whether a stated length was found wrong in this run, so that the poses before were
+  // estimated with it.
+  bool has_found_wrong_length() const { return has_found_wrong_length_; }
+
   // Reinitializes: drops queued data and the state, keeps the statistics. `reason` is reported with
   // the next output, which announces the new world frame.
   void Reset(const std::string& reason);
@@ -104,7 +111,7 @@ class EstimationStage {
 
   const Config config_;
   std::unique_ptr<Estimator> estimator_;  // hides the solver from users of this header
-  const std::unique_ptr<StatedLengths> lengths_;
+  std::unique_ptr<StatedLengths> lengths_;
   FeatureDoor door_;
   InputCheck input_check_;
   MeasurementSync sync_;
@@ -113,6 +120,7 @@ class EstimationStage {
   int64_t frames_ = 0;
   int64_t frames_repeated_ = 0;  // repeated images, whose features were ignored
   int64_t resets_ = 0;
+  bool has_found_wrong_length_ = false;
   bool reinitializing_ = true;                 // no image since the start or the last reset
   std::optional<std::string> restart_reason_;  // for the next output
 };

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <system_error>
 
+#include "common/config/yaml_document.h"
+
 namespace plm_vins {
 namespace {
 
@@ -94,30 +96,18 @@ bool Flatten(const YAML::Node& map, const std::string& prefix, int depth, const 
   return true;
 }
 
-// Returns the only YAML document. More than one is a problem, since the others would be ignored.
-std::optional<YAML::Node> TheOne(const std::vector<YAML::Node>& documents, const std::string& file,
-                                 std::vector<std::string>* problems) {
-  for (size_t i = 1; i < documents.size(); ++i) {
-    if (documents[i].IsNull()) continue;
-    problems->push_back(Location(file, documents[i].Mark()) +
-                        ": a second YAML document begins; remove the line --- or ... before it");
-    return std::nullopt;
-  }
-  if (!documents.empty() && documents[0].IsMap()) return documents[0];
-  problems->push_back(file + ": has no \"key: value\" lines; is this a configuration file?");
-  return std::nullopt;
-}
-
 std::optional<YAML::Node> ParseRoot(const std::string& file, const std::string& text,
                                     std::vector<std::string>* problems) {
   try {
-    return TheOne(YAML::LoadAll(text), file, problems);
+    const YAML::Node root = ParseYamlDocument(text);
+    if (root.IsMap()) return root;
+    problems->push_back(file + ": has no \"key: value\" lines; is this a configuration file?");
   } catch (const YAML::Exception& error) {
     problems->push_back(Location(file, error.mark) + ": not valid YAML: " + error.msg +
                         "; check this line and the one before it: indentation by spaces, alike in "
                         "each group, and a space behind each colon");
-    return std::nullopt;
   }
+  return std::nullopt;
 }
 
 // Returns the top-level map of the file, or nullopt and adds a problem.

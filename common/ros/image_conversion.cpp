@@ -108,7 +108,7 @@ DepthSample ToDepthSample(const sensor_msgs::ImageConstPtr& message) {
     CheckSize(*message);
     const bool is_integer = encoding == encodings::TYPE_16UC1 || encoding == encodings::MONO16;
     if (!is_integer && encoding != encodings::TYPE_32FC1) {
-      throw std::invalid_argument("supported are 16UC1 [mm] and 32FC1 [m]");
+      throw std::invalid_argument("supported are 16UC1 [mm] and 32FC1 [m]; check depth_topic");
     }
     const auto depth = cv_bridge::toCvShare(LowByteFirst(message));
     return {ToNanoseconds(message->header.stamp), depth->image,

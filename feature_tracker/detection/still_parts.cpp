@@ -99,19 +99,6 @@ double AreaOf(const cv::Mat& mask) {
   return cv::countNonZero(mask) / static_cast<double>(mask.total());
 }
 
-// Counts the corners whose surroundings are the same in both images, which is far cheaper than
-// finding all such parts.
-int CountSame(const cv::Mat& gray_a, const cv::Mat& gray_b,
-              const std::vector<cv::Point2f>& corners) {
-  constexpr int kHalf = kWindow_px / 2;
-  const cv::Rect inside(kHalf, kHalf, gray_a.cols - 2 * kHalf, gray_a.rows - 2 * kHalf);
-  int same = 0;
-  for (const cv::Point corner : corners) {
-    same += inside.contains(corner) && IsSameAt(gray_a, gray_b, corner) ? 1 : 0;
-  }
-  return same;
-}
-
 }  // namespace
 
 void StillParts::Add(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_now_then,
@@ -125,8 +112,8 @@ void StillParts::Add(const ImageSample& image, const std::optional<Eigen::Quater
   const Past* reference = is_due ? FindReference() : nullptr;
   if (reference != nullptr) {
     compared_ns_ = image.t_ns;
-    const bool may_stand = CountSame(reference->image.gray, image.gray, corners) >= kMinCorners;
-    if (may_stand || !moving_.empty()) Compare(*reference, image.gray, corners);
+    const double share = StandingShare(*reference, image.gray, corners);
+    if (share > kStillShare || !moving_.empty()) Compare(*reference, image.gray, share);
   }
   if (past_.empty() || ToSeconds(image.t_ns - past_.back().image.t_ns) >= kPastInterval) {
     past_.push_back({image, Eigen::Quaterniond::Identity()});
@@ -141,15 +128,36 @@ const StillParts::Past* StillParts::FindReference() const {
   return past == past_.rend() ? nullptr : &*past;
 }
 
+// Returns whether the rotation moves the cell at a pixel.
+bool StillParts::Turns(const Eigen::Quaterniond& R_now_then, const cv::Point& pixel) const {
+  const auto center_of = [](int x) { return (x / kCell_px + 0.5) * kCell_px; };
+  const Eigen::Vector2d center(center_of(pixel.x), center_of(pixel.y));
+  const auto ray = camera_->Unproject(center);
+  const auto moved = ray ? camera_->Project(R_now_then * ray->homogeneous()) : std::nullopt;
+  return moved && (*moved - center).norm() >= kMinShift_px;
+}
+
+// Returns the share of the corners in turning cells whose surroundings have not changed; 0 if they
+// are few. This is far cheaper than finding all such parts.
+double StillParts::StandingShare(const Past& reference, const cv::Mat& gray,
+                                 const std::vector<cv::Point2f>& corners) const {
+  constexpr int kHalf = kWindow_px / 2;
+  const cv::Rect inside(kHalf, kHalf, gray.cols - 2 * kHalf, gray.rows - 2 * kHalf);
+  int decided = 0, standing = 0;
+  for (const cv::Point corner : corners) {
+    if (!inside.contains(corner) || !Turns(reference.R_now_then, corner)) continue;
+    ++decided;
+    standing += IsSameAt(reference.image.gray, gray, corner) ? 1 : 0;
+  }
+  return standing >= kMinCorners ? standing / static_cast<double>(decided) : 0;
+}
+
 cv::Mat StillParts::TurnedCells(const Eigen::Quaterniond& R_now_then) const {
   const cv::Size size(camera_->parameters().width, camera_->parameters().height);
   cv::Mat cells = cv::Mat::zeros(size, CV_8UC1);
   for (int y = 0; y < size.height; y += kCell_px) {
     for (int x = 0; x < size.width; x += kCell_px) {
-      const Eigen::Vector2d pixel(x + 0.5 * kCell_px, y + 0.5 * kCell_px);
-      const auto ray = camera_->Unproject(pixel);
-      const auto moved = ray ? camera_->Project(R_now_then * ray->homogeneous()) : std::nullopt;
-      if (!moved || (*moved - pixel).norm() < kMinShift_px) continue;
+      if (!Turns(R_now_then, {x, y})) continue;
       const cv::Rect cell(x, y, kCell_px, kCell_px);
       cells(cell & cv::Rect({}, size)) = 255;
     }
@@ -157,23 +165,17 @@ cv::Mat StillParts::TurnedCells(const Eigen::Quaterniond& R_now_then) const {
   return cells;
 }
 
-void StillParts::Compare(const Past& reference, const cv::Mat& gray,
-                         const std::vector<cv::Point2f>& corners) {
+void StillParts::Compare(const Past& reference, const cv::Mat& gray, double standing_share) {
   const cv::Mat turned = TurnedCells(reference.R_now_then);
   const Correlation correlation = Correlate(reference.image.gray, gray);
   const cv::Mat still =
       correlation.textured & turned & (correlation.covariance > kSame * correlation.product);
-  int decided = 0, standing = 0;
-  for (const cv::Point2f& corner : corners) {
-    decided += turned.at<uint8_t>(corner) != 0 ? 1 : 0;
-    standing += still.at<uint8_t>(corner) != 0 ? 1 : 0;
-  }
   const double seconds = ToSeconds(*compared_ns_ - reference.image.t_ns);
   const double rate = Eigen::AngleAxisd(reference.R_now_then).angle() / seconds;
-  const bool many_stand = standing >= kMinCorners && standing > kStillShare * decided;
+  const bool many_stand = standing_share > kStillShare;
   const bool was_masked = !moving_.empty();
   if (many_stand && (rate > kSureRate || SceneMoves(reference.image.gray, gray, turned))) {
-    largest_share_ = std::max(largest_share_, standing / static_cast<double>(decided));
+    largest_share_ = std::max(largest_share_, standing_share);
     still_area_ = std::max(still_area_, AreaOf(still) / AreaOf(turned));
   } else if (!was_masked) {
     return;

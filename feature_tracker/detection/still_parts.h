@@ -48,9 +48,12 @@ class StillParts {
 
   // Returns the newest image from which the camera has turned far enough, or null.
   const Past* FindReference() const;
+  bool Turns(const Eigen::Quaterniond& R_now_then, const cv::Point& pixel) const;
+  double StandingShare(const Past& reference, const cv::Mat& gray,
+                       const std::vector<cv::Point2f>& corners) const;
   // Returns the cells of the image (CV_8UC1) in which a rotation moves the scene by many pixels.
   cv::Mat TurnedCells(const Eigen::Quaterniond& R_now_then) const;
-  void Compare(const Past& reference, const cv::Mat& gray, const std::vector<cv::Point2f>& corners);
+  void Compare(const Past& reference, const cv::Mat& gray, double standing_share);
 
   std::shared_ptr<const CameraModel> camera_;
   std::deque<Past> past_;  // oldest first

@@ -46,14 +46,35 @@ struct EpipolarResidual {
   double error;  // [rad]
 };
 
+// A pair of rays, for any number of translation directions with the same rotation.
+struct TurnedPair {
+  TurnedPair(const Eigen::Matrix3d& R_now_then, const RayPair& pair)
+      : a(R_now_then * pair.ray_then), b(pair.ray_now), normal(a.cross(b)) {}
+
+  // Square of EpipolarResidual::error: |t x a|^2 = 1 - (t . a)^2.
+  double SquaredError(const Eigen::Vector3d& t_now) const {
+    const double along_a = t_now.dot(a), along_b = t_now.dot(b), across = t_now.dot(normal);
+    return across * across /
+           (1 - 0.5 * (along_a * along_a + along_b * along_b) + EpipolarResidual::kEpipole);
+  }
+
+  Eigen::Vector3d a, b, normal;
+};
+
+std::vector<TurnedPair> TurnAll(const std::vector<RayPair>& pairs, const Eigen::Matrix3d& R) {
+  std::vector<TurnedPair> turned;
+  turned.reserve(pairs.size());
+  for (const RayPair& pair : pairs) turned.emplace_back(R, pair);
+  return turned;
+}
+
 // Sum of truncated squared errors (MSAC); the summation stops once it reaches `limit`.
-double Cost(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry, double threshold,
+double Cost(const std::vector<TurnedPair>& pairs, const Eigen::Vector3d& t_now, double threshold,
             double limit) {
   double cost = 0;
-  for (const RayPair& pair : pairs) {
+  for (const TurnedPair& pair : pairs) {
     if (cost >= limit) break;
-    const double error = EpipolarResidual(geometry, pair).error;
-    cost += std::min(error * error, threshold * threshold);
+    cost += std::min(pair.SquaredError(t_now), threshold * threshold);
   }
   return cost;
 }
@@ -125,7 +146,8 @@ EpipolarGeometry FindGeometry(const std::vector<RayPair>& pairs, const Eigen::Ma
                               bool is_rotation_known, double threshold) {
   std::mt19937 random;  // default seed, for reproducible results
   EpipolarGeometry best{R, Eigen::Vector3d::UnitZ()};
-  double best_cost = Cost(pairs, best, threshold, std::numeric_limits<double>::infinity());
+  const std::vector<TurnedPair> turned = TurnAll(pairs, R);
+  double best_cost = Cost(turned, best.t_now, threshold, std::numeric_limits<double>::infinity());
   const int hypotheses = is_rotation_known ? kHypothesesOfTwo : kHypothesesOfFive;
   for (int i = 0; i < hypotheses; ++i) {
     const auto sample = Draw(pairs, is_rotation_known ? 2 : 5, &random);
@@ -135,7 +157,8 @@ EpipolarGeometry FindGeometry(const std::vector<RayPair>& pairs, const Eigen::Ma
     for (int k = 0; !is_rotation_known && k < kSolverIterations; ++k) {
       geometry = Refine(sample, geometry, kNotRobust);
     }
-    const double cost = Cost(pairs, geometry, threshold, best_cost);
+    const double cost = Cost(is_rotation_known ? turned : TurnAll(pairs, geometry.R_now_then),
+                             geometry.t_now, threshold, best_cost);
     if (cost < best_cost) {
       best = geometry;
       best_cost = cost;

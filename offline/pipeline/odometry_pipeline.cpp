@@ -89,7 +89,7 @@ void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, int
   };
   const auto estimate = [&](TrackedItem item) {
     Consume(std::move(item), on_frame);
-    return true;
+    return !must_repeat();
   };
   if (threads > 1) {
     RunAhead<TrackedItem>(kQueueCapacity, track, estimate);
@@ -102,7 +102,7 @@ void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, int
 
 void OdometryPipeline::Run(FeatureFileReader* features, RecordingInterval interval,
                            const FrameCallback& on_frame) {
-  while (auto item = is_end_() ? std::nullopt : features->Next()) {
+  while (auto item = is_end_() || must_repeat() ? std::nullopt : features->Next()) {
     if (!item->frame) first_imu_.Add(item->t_ns());
     const RecordingInterval::Part part = interval.Locate(EventOf(*item));
     if (part == RecordingInterval::Part::kEnd) break;

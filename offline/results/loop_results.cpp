@@ -6,13 +6,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/format.h"
 #include "common/stopwatch.h"
 #include "offline/results/loop_input.h"
 #include "pose_graph/output/colmap_writer.h"
 #include "pose_graph/output/g2o_writer.h"
 #include "pose_graph/output/loop_table.h"
 #include "vins_estimator/output/covariance_table.h"
-#include "vins_estimator/output/series_summary.h"
 #include "vins_estimator/output/tum_format.h"
 
 namespace plm_vins {
@@ -43,7 +43,10 @@ LoopResults::LoopResults(const Config& config, const std::string& folder,
       trajectory_(File("trajectory_map.tum")),
       covariance_(File("covariance_map.csv"), CovarianceHeader()),
       table_(File("loops.csv")) {
-  if (map) loops_.SetMap(std::move(*map));
+  if (map) {
+    loaded_keyframes_ = static_cast<int>(map->keyframes.size());
+    loops_.SetMap(std::move(*map));
+  }
   WriteLoopHeader(&table_.stream());
 }
 
@@ -85,11 +88,14 @@ void LoopResults::Add(const PipelineFrame& frame) {
 void LoopResults::Count(const LoopClosure& closure, double milliseconds) {
   tally_.Add(closure);
   for (const auto* loops : {&closure.candidates, &closure.confirmed, &closure.reconsidered}) {
-    for (const LoopCandidate& loop : *loops) WriteLoopRow(loop, &table_.stream());
+    for (const LoopCandidate& loop : *loops) {
+      WriteLoopRow(loop, &table_.stream());
+      recognitions_ += !loop.failed && loop.earlier < loaded_keyframes_;
+    }
   }
   if (!closure.is_keyframe) return;
   ++keyframes_;
-  keyframe_ms_.push_back(milliseconds);
+  keyframe_ms_.Add(milliseconds);
 }
 
 void LoopResults::Remember(const PipelineFrame& frame, const LoopClosure& closure) {
@@ -170,7 +176,7 @@ Json LoopResults::Summary() const {
     refused[ToString(static_cast<LoopGate>(gate))] = 0;
   }
   for (const auto& [gate, count] : tally_.refused) refused[ToString(gate)] = count;
-  const SeriesSummary timing = Summarize(keyframe_ms_);
+  const SeriesSummary timing = keyframe_ms_.Summary();
   Json json;
   json["keyframes"] = keyframes_;
   json["map_keyframes"] = map().CountKept();
@@ -182,6 +188,22 @@ Json LoopResults::Summary() const {
   json["bundle"] = BundleSummary();
   json["keyframe_ms"] = {{"mean", timing.mean}, {"p95", timing.p95}};
   return json;
+}
+
+std::string LoopResults::Line() const {
+  std::string line = Format("loops: %.0f closed of %.0f candidates",
+                            static_cast<double>(tally_.accepted - tally_.dropped),
+                            static_cast<double>(tally_.candidates));
+  if (loaded_keyframes_ == 0 || !first_fix_) return line;
+  return line + Format("; the loaded map was recognized after %.1f s, %.0f times in all",
+                       *first_fix_, static_cast<double>(recognitions_));
+}
+
+std::string LoopResults::Finding() const {
+  if (loaded_keyframes_ == 0 || keyframes_ == 0 || first_fix_) return "";
+  return "the loaded map was never recognized: no pose is in its frame; check that it is of this "
+         "place, camera and calibration, in similar light (loops.csv has each candidate and the "
+         "gate that refused it)";
 }
 
 }  // namespace plm_vins

@@ -19,6 +19,7 @@
 #include "pose_graph/loop_tally.h"
 #include "pose_graph/map/map_trajectory.h"
 #include "vins_estimator/output/json.h"
+#include "vins_estimator/output/series_summary.h"
 
 namespace plm_vins {
 
@@ -51,6 +52,12 @@ class LoopResults {
   // Counts and times, for summary.json.
   Json Summary() const;
 
+  // A line for the terminal: the loops, and when the loaded map was recognized.
+  std::string Line() const;
+
+  // Returns what is wrong if a map was loaded and never recognized; otherwise an empty string.
+  std::string Finding() const;
+
  private:
   // The map after bundle adjustment.
   struct Adjusted {
@@ -80,9 +87,11 @@ class LoopResults {
   std::vector<OdometryPose> poses_;
   std::vector<std::pair<size_t, std::string>> worlds_;  // first pose, reason; without the first
   std::optional<double> first_fix_;                     // since the first pose [s]
+  int loaded_keyframes_ = 0;                            // of the map that was loaded
+  int64_t recognitions_ = 0;                            // of them
   int64_t keyframes_ = 0;
   LoopTally tally_;
-  std::vector<double> keyframe_ms_;
+  Series keyframe_ms_;
 };
 
 }  // namespace plm_vins

@@ -139,7 +139,7 @@ class BagRecording : public Recording {
       return compressed_image_ ? ToImageSample(*compressed_image_).gray
                                : ToImageSample(*raw_image_).gray;
     } catch (const std::invalid_argument& error) {
-      unreadable_images_.Add(error.what());
+      (is_depth_ ? unreadable_depth_ : unreadable_images_).Add(error.what());
       return std::nullopt;
     }
   }
@@ -154,7 +154,7 @@ class BagRecording : public Recording {
   std::optional<int64_t> end_ns() const override { return end_ns_; }
 
   DropCounts problems() const override {
-    return {damaged_, of_another_type_, unreadable_images_, malformed_};
+    return {damaged_, of_another_type_, unreadable_images_, unreadable_depth_, malformed_};
   }
 
  private:
@@ -223,6 +223,7 @@ class BagRecording : public Recording {
   DropCount damaged_{"bag_damaged", 0, ""};
   DropCount of_another_type_{"messages_of_another_type", 0, ""};
   DropCount unreadable_images_{"images_unreadable", 0, ""};
+  DropCount unreadable_depth_{"depth_images_unreadable", 0, ""};
   DropCount malformed_{"messages_malformed", 0, ""};
 };
 

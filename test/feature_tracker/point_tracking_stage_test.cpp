@@ -115,7 +115,7 @@ TEST(PointTrackingStage, ACameraThatPausesKeepsItsTracks) {
     ids.push_back(Ids(frame));
   }
   EXPECT_EQ(ids[4], ids[0]);
-  EXPECT_EQ(stage.counts().others[0].missing.count, 2);
+  EXPECT_EQ(stage.counts().others[0].missing.count().count, 2);
 }
 
 TEST(PointTrackingStage, TheSecondCameraOfAPairHasNoTracker) {

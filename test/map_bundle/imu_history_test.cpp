@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace plm_vins {
 namespace {
 
@@ -36,6 +38,24 @@ TEST(ImuHistoryTest, IntegratesBetweenStamps) {
   EXPECT_NEAR(between->duration(), 0.7975, 1e-12);
   EXPECT_LT((between->delta_p() - expected.delta_p()).norm(), 1e-12);
   EXPECT_LT((between->delta_v() - expected.delta_v()).norm(), 1e-12);
+}
+
+// What remains serves the intervals before and after, up to both times.
+TEST(ImuHistoryTest, ForgetsWhatIsNotNeeded) {
+  const ImuHistory complete = SecondOfSamples();
+  ImuHistory history = SecondOfSamples();
+  history.Forget(0, 302'000'000, 702'000'000);
+  history.Forget(0, 302'000'000, 702'000'000);
+  for (const auto& [from_ns, to_ns] :
+       {std::pair<int64_t, int64_t>{1'000'000, 302'000'000}, {702'000'000, 999'000'000}}) {
+    const auto between = history.Between(0, from_ns, to_ns, ImuNoise{}, ImuBias{});
+    const auto expected = complete.Between(0, from_ns, to_ns, ImuNoise{}, ImuBias{});
+    ASSERT_TRUE(between && expected);
+    EXPECT_EQ(between->delta_p(), expected->delta_p());
+    EXPECT_EQ(between->samples().size(), expected->samples().size());
+  }
+  const auto across = history.Between(0, 0, 1'000'000'000, ImuNoise{}, ImuBias{});
+  EXPECT_LT(across->samples().size(), 130u);  // of 201
 }
 
 TEST(ImuHistoryTest, ReturnsNulloptBeyondItsSamples) {

@@ -76,6 +76,15 @@ class PairFlight(unittest.TestCase):
         for source in (("--bag", self.bag), ("--asl", self.folder / "flight")):
             self.assert_uses("rig", *source)
 
+    def test_depths_of_another_unit_change_nothing(self):
+        config = pair_flight.write_config(self.folder, "depth")
+        trajectory = self.folder / "results" / "trajectory.tum"
+        summary = self.run_offline(config, "--bag", self.bag, "--set", "depth_unit=0.01")
+        self.assertIn("depths are 10.", summary["findings"][0])
+        estimated = trajectory.read_bytes()
+        self.run_offline(ROOT / "config" / "euroc.yaml", "--bag", self.bag)
+        self.assertEqual(estimated, trajectory.read_bytes())
+
     def test_one_camera(self):
         summary = self.run_offline(ROOT / "config" / "euroc.yaml", "--bag", self.bag)
         for count in USED["rig"]:

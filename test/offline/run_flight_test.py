@@ -263,7 +263,9 @@ class RunFlight(unittest.TestCase):
         truth = read_trajectory(self.flights / "first" / "groundtruth.tum")
         rotation, translation = metrics.alignment(mapped, truth.at(mapped.stamps), "se3")
 
-        self.run_flight(second, "--map-in", plm, "--duration", 14)
+        lines = self.run_flight(second, "--map-in", plm, "--duration", 14)
+        self.assertRegex(lines, "; the loaded map was recognized after [0-9.]+ s, [1-9][0-9]* times"
+                         " in all\n")
         self.assertLess(self.summary()["loops"]["first_fix_s"], 5)
         poses = read_trajectory(self.results / "trajectory_map.tum")
         self.assertGreater(len(poses), 50)

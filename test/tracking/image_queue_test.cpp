@@ -265,8 +265,8 @@ TEST_F(OtherImages, ArePairedByStamp) {
   ASSERT_TRUE(second);
   EXPECT_TRUE(second->images[1].gray.empty());
   EXPECT_TRUE(second->depth.depth.empty());
-  EXPECT_EQ(queue_.counts().others.at(0).missing.count, 1);
-  EXPECT_EQ(queue_.counts().without_depth.count, 1);
+  EXPECT_EQ(queue_.counts().others.at(0).missing.count().count, 1);
+  EXPECT_EQ(queue_.counts().without_depth.count().count, 1);
 }
 
 // The cameras are stamped 2.1 ms apart.
@@ -284,7 +284,7 @@ TEST_F(OtherImages, AConstantOffsetOfStampsIsNamedAndMayBeAllowed) {
       paired += !ready->images[1].gray.empty();
     }
     EXPECT_EQ(paired, tolerance < 0.0021 ? 0 : 30);
-    const std::string detail = queue.counts().others.at(0).missing.detail;
+    const std::string detail = queue.counts().others.at(0).missing.count().detail;
     EXPECT_EQ(detail.find("a constant 2.1 ms later") != std::string::npos, paired == 0) << detail;
     EXPECT_EQ(detail.find("stamp_tolerance: 0.003") != std::string::npos, paired == 0) << detail;
   }
@@ -295,8 +295,9 @@ TEST_F(OtherImages, OfAnotherSizeAreTheCauseOfMissingOnes) {
   queue_.AddDepth({At(0), depth_.colRange(0, 100)});
   queue_.AddImage(0, {At(0), picture_});
   ASSERT_TRUE(queue_.Flush());
-  EXPECT_NE(queue_.counts().others.at(0).missing.detail.find("320 x 100 px"), std::string::npos);
-  EXPECT_NE(queue_.counts().without_depth.detail.find("100 x 240 px"), std::string::npos);
+  EXPECT_NE(queue_.counts().others.at(0).missing.count().detail.find("320 x 100 px"),
+            std::string::npos);
+  EXPECT_NE(queue_.counts().without_depth.count().detail.find("100 x 240 px"), std::string::npos);
 }
 
 TEST_F(OtherImages, NeedNoPixelsWhereTheyAreNotSearched) {
@@ -305,7 +306,7 @@ TEST_F(OtherImages, NeedNoPixelsWhereTheyAreNotSearched) {
   const auto ready = queue_.Flush();
   ASSERT_TRUE(ready);
   EXPECT_TRUE(ready->images[1].gray.empty());
-  EXPECT_EQ(queue_.counts().others.at(0).missing.count, 0);
+  EXPECT_EQ(queue_.counts().others.at(0).missing.count().count, 0);
   EXPECT_EQ(queue_.counts().others.at(0).unusable.count, 0);
 }
 
@@ -378,7 +379,7 @@ TEST_F(OtherImages, OfFourCamerasArePairedByStamp) {
   ASSERT_TRUE(ready);
   EXPECT_TRUE(ready->images[2].gray.empty());
   EXPECT_EQ(cv::norm(ready->images[3].gray, picture_ + 3, cv::NORM_INF), 0);
-  EXPECT_EQ(queue.counts().others[1].missing.count, 1);
+  EXPECT_EQ(queue.counts().others[1].missing.count().count, 1);
   EXPECT_EQ(ToDropCounts(queue.counts()).back().cause, "images_without_camera2");
 }
 

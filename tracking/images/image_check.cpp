@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/camera/image_format.h"
+#include "common/format.h"
 
 namespace plm_vins {
 
@@ -17,6 +18,24 @@ void CheckImage(const ImageSample& image, const CameraParameters& camera,
                                 " ns is not after the previous one, " +
                                 std::to_string(*previous_ns) + " ns");
   }
+}
+
+std::string DescribeIfFlat(const cv::Mat& gray) {
+  constexpr int kStride = 16;     // of the sampled rows and columns [px]
+  constexpr int kLeastRange = 8;  // of the gray values, 0 to 255
+  int least = 255, largest = 0;
+  for (int row = kStride / 2; row < gray.rows; row += kStride) {
+    const uint8_t* pixels = gray.ptr(row);
+    for (int col = kStride / 2; col < gray.cols; col += kStride) {
+      least = std::min<int>(least, pixels[col]);
+      largest = std::max<int>(largest, pixels[col]);
+    }
+  }
+  if (largest - least >= kLeastRange || largest < least) return "";
+  return Format(
+      "all values are from %d to %d of 255; check exposure, lens cap and encoding: "
+      "mono16 with 10 or 12 bits, or YUYV named yuv422?",
+      least, largest);
 }
 
 bool AreSame(const cv::Mat& a, const cv::Mat& b) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 
 #include "common/camera/camera_model.h"
 #include "common/measurements.h"
@@ -14,6 +15,10 @@ namespace plm_vins {
 // timestamp is not later than `previous_ns`.
 void CheckImage(const ImageSample& image, const CameraParameters& camera,
                 const std::optional<int64_t>& previous_ns);
+
+// Returns the values of an image, CV_8UC1, and what to check, if a sample of its pixels has nearly
+// the same value everywhere; otherwise an empty string.
+std::string DescribeIfFlat(const cv::Mat& gray);
 
 // Returns whether both images, CV_8UC1, have the same size and pixels.
 bool AreSame(const cv::Mat& a, const cv::Mat& b);

@@ -33,7 +33,7 @@ constexpr int kContradictions = 2;
 // Deviation of the gyro's bias that is estimated from the images, times their duration [rad].
 constexpr double kGyroBiasByTime = 0.002;
 // Deviations of a ratio that needs no more evidence: if it fits, and if it does not.
-constexpr double kFits = 2, kKnown = 0.015, kKnownBest = 0.009;
+constexpr double kFits = 2, kKnown = 0.025, kKnownBest = 0.012;
 constexpr double kSteadiness = 3e-4;  // least deviation of positions, relative to the path's length
 
 std::vector<Rigid3d> ExtrinsicsOf(const SensorConfig& sensor) {
@@ -106,13 +106,17 @@ void LengthCheck::Add(const FrameMeasurement& measurement) {
     RatioCurve all = earlier_;
     all.Add(*curve);
     Judge(all);
-    if (is_complete) earlier_ = all;
+    if (is_complete) {
+      earlier_ = all;
+      scale_information_ += scale_information_of_piece_;
+    }
   }
   if (is_complete) piece_.erase(piece_.begin(), piece_.end() - 1);
 }
 
 void LengthCheck::Judge(const RatioCurve& curve) {
-  ratio_ = curve.Estimate(std::hypot(kAccelScaleDeviation, scale_deviation_));
+  const double scale_information = scale_information_ + scale_information_of_piece_;
+  ratio_ = curve.Estimate(std::hypot(kAccelScaleDeviation, 1 / std::sqrt(scale_information)));
   const bool contradicts =
       ratio_.contradiction > kWrong && std::abs(ratio_.log_ratio) > kLargestError;
   contradictions_ = contradicts ? contradictions_ + 1 : 0;
@@ -120,6 +124,17 @@ void LengthCheck::Judge(const RatioCurve& curve) {
   const bool fits = ratio_.contradiction < kFits || is_wrong_;
   const bool is_settled = is_wrong_ || contradictions_ == 0;
   is_known_ = is_settled && ratio_.deviation < (fits ? kKnown : kKnownBest);
+}
+
+void LengthCheck::Add(const LengthEvidence& log_ratio) {
+  if (is_known_ || std::abs(log_ratio.error) < kLargestError) return;
+  by_estimator_ = std::abs(log_ratio.error) / log_ratio.deviation;
+  if (by_estimator_ < kWrong) return;
+  is_wrong_ = true;
+  if (log_ratio.deviation < ratio_.deviation) {
+    ratio_.log_ratio = log_ratio.error;
+    ratio_.deviation = log_ratio.deviation;
+  }
 }
 
 // Drops the beginning of a long standstill. Returns whether it still lasts.
@@ -169,7 +184,7 @@ std::optional<RatioCurve> LengthCheck::CurveOfPiece() {
   const auto structure =
       ReconstructFromStereo(Longest(CollectTracks(views)), R_G_B, options, &reason);
   if (!structure) return std::nullopt;
-  scale_deviation_ = std::min(scale_deviation_, structure->scale_deviation);
+  scale_information_of_piece_ = std::pow(structure->scale_deviation, -2);
   const auto gyro_bias = EstimateGyroBias(RotationsBetween(*structure, intervals), &reason);
   if (!gyro_bias) return std::nullopt;
   MeasuredMotion motion{

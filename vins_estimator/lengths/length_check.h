@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -10,15 +11,17 @@
 #include "common/config/stereo_pairs.h"
 #include "common/measurements.h"
 #include "vins_estimator/lengths/ratio_curve.h"
+#include "vins_estimator/state/estimator_output.h"
 
 namespace plm_vins {
 
 // Compares a length that the configuration states, the baseline of two cameras or the unit of
 // measured depths, with the IMU, which needs no estimate: stereo odometry over pieces of three
-// seconds gives the camera's path in stated lengths, and the IMU tells how long it is. The length
-// is wrong if that rules it out by five standard deviations, and by more than 5 %, which no
-// calibration is off. Once the ratio is known well,
-// nothing is computed any more.
+// seconds gives the camera's path in stated lengths, and the IMU tells how long it is. Cameras that
+// are turned against each other bias the depths of such a piece, so an error of less than about
+// 25 % may not show; the estimator, which knows the cameras' rotations, adds its evidence later.
+// The length is wrong if either rules it out by five standard deviations, and by more than 5 %,
+// which no calibration is off. Once the ratio is known well, nothing is computed any more.
 class LengthCheck {
  public:
   // Without a pair, measured depths are checked. `point_noise_px` is the standard deviation of a
@@ -28,11 +31,16 @@ class LengthCheck {
   // Adds the next image.
   void Add(const FrameMeasurement& measurement);
 
+  // Adds the evidence of the estimator on the logarithm of the ratio.
+  void Add(const LengthEvidence& log_ratio);
+
   // Drops the images of the current piece, as after a jump of the clock.
   void Interrupt();
 
   // Ratio of the stated length to the true one.
   const RatioEstimate& ratio() const { return ratio_; }
+  // Standard deviations by which the stated length is ruled out.
+  double contradiction() const { return std::max(ratio_.contradiction, by_estimator_); }
   // Returns whether the length is wrong. This is final.
   bool is_wrong() const { return is_wrong_; }
 
@@ -54,8 +62,10 @@ class LengthCheck {
   std::optional<int64_t> judged_ns_;  // newest image at the last judgement
   RatioCurve earlier_;                // of all pieces before
   RatioEstimate ratio_;
-  double scale_deviation_ = 1;  // of the depths in the best piece
-  int contradictions_ = 0;      // consecutive judgements that rule the length out
+  double scale_information_ = 0;  // of the depths in all pieces before
+  double scale_information_of_piece_ = 0;
+  double by_estimator_ = 0;  // contradiction that the estimator found
+  int contradictions_ = 0;   // consecutive judgements that rule the length out
   bool is_wrong_ = false, is_known_ = false;
 };
 

@@ -31,6 +31,18 @@ void DropCamera(int camera, std::vector<Observation>* observations) {
                       observations->end());
 }
 
+// Returns the logarithm of the ratio of the stated to the true length; nullopt if the estimator has
+// no evidence of an error.
+std::optional<LengthEvidence> EvidenceFor(const std::optional<StereoPair>& pair,
+                                          const EstimatorReport& report) {
+  if (!pair) return report.depth.scale;
+  for (const CameraFaults& faults : report.cameras) {
+    if (faults.camera != pair->second || !faults.baseline) continue;
+    return LengthEvidence{-faults.baseline->error, faults.baseline->deviation};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string ProbableDepthUnit(double ratio, double deviation, double depth_unit) {
@@ -59,10 +71,11 @@ void StatedLengths::StartOver() {
   for (LengthCheck& check : checks_) check.Interrupt();
 }
 
-bool StatedLengths::Add(const FrameMeasurement& measurement) {
+bool StatedLengths::Add(const FrameMeasurement& measurement, const EstimatorReport& previous) {
   bool is_news = false, is_open = false;
   for (LengthCheck& check : checks_) {
     const bool was_wrong = check.is_wrong();
+    if (const auto evidence = EvidenceFor(check.pair(), previous)) check.Add(*evidence);
     check.Add(measurement);
     is_news |= check.is_wrong() && !was_wrong;
     is_open |= check.is_open();
@@ -142,7 +155,7 @@ std::string StatedLengths::Finding() const {
 double StatedLengths::Contradiction() const {
   double worst = 0;
   for (const LengthCheck& check : checks_) {
-    if (check.is_wrong()) worst = std::max(worst, check.ratio().contradiction);
+    if (check.is_wrong()) worst = std::max(worst, check.contradiction());
   }
   return worst;
 }

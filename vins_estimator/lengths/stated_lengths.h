@@ -18,8 +18,9 @@ class StatedLengths {
  public:
   explicit StatedLengths(const Config& config);
 
-  // Adds the next image. Returns whether a length has just been found wrong.
-  bool Add(const FrameMeasurement& measurement);
+  // Adds the next image, and what the estimator reported with the one before. Returns whether a
+  // length has just been found wrong.
+  bool Add(const FrameMeasurement& measurement, const EstimatorReport& previous = {});
 
   // Drops the stored images, as when the clock jumps. What was found stays.
   void StartOver();

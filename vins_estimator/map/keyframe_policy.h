@@ -12,13 +12,18 @@ namespace plm_vins {
 struct KeyframePolicyOptions {
   // `focal_length` [px] converts pixels to normalized coordinates.
   KeyframePolicyOptions(const EstimatorConfig& config, double focal_length)
-      : min_parallax(config.keyframe_parallax / focal_length) {}
+      : window_size(config.window_size), min_parallax(config.keyframe_parallax / focal_length) {}
+
+  size_t window_size;
 
   double min_parallax;             // mean corner motion that makes a keyframe, normalized
   int min_tracked = 20;            // keyframe if fewer corners of the last keyframe are tracked
   double min_tracked_share = 0.5;  // keyframe if a smaller share of the image's corners is old
-  int min_points_to_see = 10;      // an image with fewer corners is blind
-  double max_interval = 1.0;       // longest interval between keyframes in motion [s]
+  // Shortest interval between keyframes once the window is full [s]: closer ones would shorten the
+  // time that it spans.
+  double min_interval = 0.08;
+  int min_points_to_see = 10;  // an image with fewer corners is blind
+  double max_interval = 1.0;   // longest interval between keyframes in motion [s]
   // Longest interval at standstill [s], once at least `min_keyframes_at_rest` keyframes are
   // stationary: without parallax, more of them would only push out the keyframes that constrain the
   // depths.

@@ -2,7 +2,6 @@
 #include "vins_estimator/output/run_summary.h"
 
 #include "common/measurements.h"
-#include "vins_estimator/output/series_summary.h"
 
 namespace plm_vins {
 namespace {
@@ -53,35 +52,35 @@ Json CalibrationToJson(const Calibration& calibration) {
   return json;
 }
 
-using Series = std::vector<Column<std::vector<double>>>;
+using NamedSeries = std::vector<Column<Series>>;
 
 template <typename T>
-Series NamesOf(const std::vector<Column<T>>& columns) {
-  Series series;
+NamedSeries NamesOf(const std::vector<Column<T>>& columns) {
+  NamedSeries series;
   for (const Column<T>& column : columns) series.push_back({column.name, {}});
   return series;
 }
 
 template <typename T>
-void Append(const std::vector<Column<T>>& columns, Series* series) {
+void Append(const std::vector<Column<T>>& columns, NamedSeries* series) {
   for (size_t i = 0; i < series->size(); ++i) {
-    (*series)[i].value.push_back(static_cast<double>(columns[i].value));
+    (*series)[i].value.Add(static_cast<double>(columns[i].value));
   }
 }
 
-Json TimingsToJson(const Series& timings) {
+Json TimingsToJson(const NamedSeries& timings) {
   Json json;
   for (const auto& stage : timings) {
-    const SeriesSummary summary = Summarize(stage.value);
+    const SeriesSummary summary = stage.value.Summary();
     json[stage.name] = {{"mean", summary.mean}, {"p95", summary.p95}, {"p99", summary.p99}};
   }
   return json;
 }
 
-Json CountsToJson(const Series& counts) {
+Json CountsToJson(const NamedSeries& counts) {
   Json json;
   for (const auto& count : counts) {
-    const SeriesSummary summary = Summarize(count.value);
+    const SeriesSummary summary = count.value.Summary();
     json[count.name] = {{"mean", summary.mean}, {"median", summary.median}};
   }
   return json;

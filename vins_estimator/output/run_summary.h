@@ -9,12 +9,13 @@
 #include "common/streams/drop_counts.h"
 #include "vins_estimator/output/frame_columns.h"
 #include "vins_estimator/output/json.h"
+#include "vins_estimator/output/series_summary.h"
 #include "vins_estimator/state/estimator_output.h"
 #include "vins_estimator/state/residual_ring.h"
 
 namespace plm_vins {
 
-// Accumulates summary.json frame by frame. Stores only the timings and counts of each frame.
+// Accumulates summary.json frame by frame. Its memory does not grow with the run.
 class RunSummary {
  public:
   // `columns` has the names of the columns of each frame.
@@ -67,7 +68,7 @@ class RunSummary {
   int64_t duration_ns_ = 0;
   std::string last_reason_;
   // One value for each frame.
-  std::vector<Column<std::vector<double>>> timings_, counts_;
+  std::vector<Column<Series>> timings_, counts_;
 };
 
 }  // namespace plm_vins

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <vector>
 
@@ -26,5 +27,36 @@ inline SeriesSummary Summarize(std::vector<double> values) {
   return {std::accumulate(values.begin(), values.end(), 0.0) / count, quantile(0.5), quantile(0.95),
           quantile(0.99)};
 }
+
+// A series of any length in bounded memory. The mean is exact; percentiles are those of at least
+// `kMost` / 2 values that are evenly spaced in the series.
+class Series {
+ public:
+  static constexpr size_t kMost = 1 << 14;
+
+  void Add(double value) {
+    sum_ += value;
+    if (count_++ % stride_ == 0) values_.push_back(value);
+    if (values_.size() == kMost) Halve();
+  }
+
+  SeriesSummary Summary() const {
+    SeriesSummary summary = Summarize(values_);
+    if (count_ > 0) summary.mean = sum_ / static_cast<double>(count_);
+    return summary;
+  }
+
+ private:
+  void Halve() {
+    for (size_t i = 0; 2 * i < values_.size(); ++i) values_[i] = values_[2 * i];
+    values_.resize(values_.size() / 2);
+    stride_ *= 2;
+  }
+
+  double sum_ = 0;
+  size_t count_ = 0;
+  size_t stride_ = 1;  // of the values in the series
+  std::vector<double> values_;
+};
 
 }  // namespace plm_vins

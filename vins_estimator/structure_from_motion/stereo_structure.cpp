@@ -29,6 +29,8 @@ struct DepthPair {
   double measured, expected;
   double deviation;   // of the measured one
   double per_radian;  // change of the measured one if the second camera is turned
+  double expected_deviation = 0;
+  double share = 1;  // of its point's information, whose views have similar errors
 };
 
 // Returns the inverse depth along the ray `xy` at which it comes closest to the ray `xy_S` of a
@@ -43,7 +45,9 @@ DepthPair DepthByTwoRays(const Eigen::Vector2d& xy, const Eigen::Vector2d& xy_S,
   return {-far.dot(per_inverse_depth) / (norm * norm), 0, M_SQRT2 * noise * per_radian, per_radian};
 }
 
-// Fits measured = ratio * expected + offset, robustly; returns the ratio and its deviation.
+// Fits measured = ratio * expected + offset, robustly; returns the ratio and its deviation. Both
+// have errors: in a least-squares fit, those of the expected ones would lessen the ratio. So the
+// equations are projected on what is expected after the fit [York2004].
 std::pair<double, double> FitRatio(const std::vector<DepthPair>& depths) {
   Eigen::Vector2d fit(1, 0);
   Eigen::Matrix2d H = Eigen::Matrix2d::Identity();
@@ -51,13 +55,17 @@ std::pair<double, double> FitRatio(const std::vector<DepthPair>& depths) {
     H = Eigen::Vector2d(1e-6, 1 / (kPairRotation * kPairRotation)).asDiagonal();
     Eigen::Vector2d g = Eigen::Vector2d::Zero();
     for (const DepthPair& depth : depths) {
-      const Eigen::Vector2d J = Eigen::Vector2d(depth.expected, depth.per_radian) / depth.deviation;
-      const double error = depth.measured / depth.deviation - J.dot(fit);
-      const double weight = 1 / (1 + error * error / (loss * loss));
-      H += weight * J * J.transpose();
-      g += weight * J * depth.measured / depth.deviation;
+      const Eigen::Vector2d J(depth.expected, depth.per_radian);
+      const double error = depth.measured - J.dot(fit);
+      const double of_expected = depth.expected_deviation * depth.expected_deviation;
+      const double variance = depth.deviation * depth.deviation + fit[0] * fit[0] * of_expected;
+      const double weight = depth.share / (variance + error * error / (loss * loss));
+      const Eigen::Vector2d adjusted(depth.expected + fit[0] * of_expected / variance * error,
+                                     depth.per_radian);
+      H += weight * adjusted * J.transpose();
+      g += weight * adjusted * depth.measured;
     }
-    fit = H.ldlt().solve(g);
+    fit = H.partialPivLu().solve(g);
   }
   return {fit[0], std::sqrt(H.inverse()(0, 0))};
 }
@@ -99,6 +107,8 @@ class Builder {
   bool Resect(int view, int neighbor, std::string* reason);
   bool ResectFromHere(int view, std::string* reason);
   void TriangulateInAll();
+  double DeviationByMotion(const std::vector<PosedPointObservation>& observations,
+                           const Eigen::Vector3d& p_G) const;
   std::vector<DepthPair> DepthsInSingleViews() const;
 
   const std::vector<Track>& tracks_;
@@ -106,6 +116,7 @@ class Builder {
   const StereoStructureOptions options_;
   bool by_motion_ = false;  // refining, without second cameras, which may be turned
   StereoStructure structure_;
+  std::vector<double> deviations_;  // of inverse depths by motion, one per track; 0 if unknown
 };
 
 // Counts what is observed beyond one image of each point.
@@ -234,7 +245,9 @@ std::optional<StereoStructure> Builder::Build(std::string* reason) {
 
 }  // namespace
 
+// Points with too little parallax keep their positions.
 void Builder::TriangulateInAll() {
+  deviations_.assign(tracks_.size(), 0);
   for (size_t i = 0; i < tracks_.size(); ++i) {
     if (!structure_.p_G[i]) continue;
     std::vector<PosedPointObservation> observations;
@@ -242,15 +255,30 @@ void Builder::TriangulateInAll() {
       if (!IsUsed(tracks_[i], o)) continue;
       observations.push_back({structure_.T_G_B[o.view] * options_.T_B_C[o.camera], o.xy});
     }
-    if (const auto p_G = TriangulatePoint(observations, options_.min_angle))
-      structure_.p_G[i] = p_G;
+    const auto p_G = TriangulatePoint(observations, options_.min_angle);
+    if (!p_G) continue;
+    structure_.p_G[i] = p_G;
+    deviations_[i] = DeviationByMotion(observations, *p_G);
   }
+}
+
+// Of a point's inverse depth: across its rays, the cameras spread by so much.
+double Builder::DeviationByMotion(const std::vector<PosedPointObservation>& observations,
+                                  const Eigen::Vector3d& p_G) const {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& o : observations) mean += o.T_W_C.translation / observations.size();
+  const Eigen::Vector3d ray = (p_G - mean).normalized();
+  double spread = 0;
+  for (const auto& o : observations)
+    spread += (o.T_W_C.translation - mean).cross(ray).squaredNorm();
+  return options_.noise / std::sqrt(spread);
 }
 
 std::vector<DepthPair> Builder::DepthsInSingleViews() const {
   std::vector<DepthPair> depths;
   for (size_t i = 0; i < tracks_.size(); ++i) {
-    if (!structure_.p_G[i]) continue;
+    if (!structure_.p_G[i] || !(deviations_[i] > 0)) continue;
+    const size_t before = depths.size();
     for (const Track::Observation& o : tracks_[i].observations) {
       const Track::Observation* first = tracks_[i].In(o.view);
       if (&o == first && !o.depth) continue;
@@ -264,9 +292,12 @@ std::vector<DepthPair> Builder::DepthsInSingleViews() const {
                                options_.noise);
       }
       depth.expected = 1 / z;
+      depth.expected_deviation = deviations_[i];
       if (o.depth) depth.deviation = kDepthDeviation * depth.expected;
       depths.push_back(depth);
     }
+    for (size_t k = before; k < depths.size(); ++k)
+      depths[k].share = 1.0 / (depths.size() - before);
   }
   return depths;
 }

@@ -25,8 +25,14 @@ TEST_F(ConfigSyntax, ErrorsNameTheLineAndCommonMistakes) {
 TEST_F(ConfigSyntax, ASecondDocumentIsRejected) {
   for (const std::string separator : {"---", "..."}) {
     ExpectProblem(separator + "\nmax_cnt: 100",
-                  {"camera.yaml:11: a second YAML document begins; remove the line"});
+                  {"camera.yaml:1", "not valid YAML: a second document begins; remove the line"});
   }
+}
+
+// A comment that continues on a line of its own.
+TEST_F(ConfigSyntax, ACommaInPlaceOfAKeyIsRejected) {
+  ExpectOneProblem(ProblemsOf(Write("%YAML:1.0\n# at most 3\n, or less\nx: 3\n")),
+                   {"camera.yaml:3: not valid YAML: a key or value is missing"});
 }
 
 TEST_F(ConfigSyntax, AcceptsDocumentMarkersAroundOneDocument) {

@@ -103,6 +103,7 @@ TEST_F(LoopResultsTest, WritesAllFilesOfARun) {
   EXPECT_EQ(summary["map_keyframes"], 2);
   EXPECT_EQ(summary["accepted"], 0);
   EXPECT_EQ(summary["first_fix_s"], 0.0);
+  EXPECT_EQ(results.Finding(), "");  // no map was loaded
 }
 
 // Rays of keyframes and landmarks refer to the refined camera.
@@ -171,6 +172,8 @@ TEST_F(LoopResultsTest, StartsInAMap) {
   results.Add(FrameAt(0));
   EXPECT_EQ(results.Summary()["map_keyframes"], 4);
   EXPECT_TRUE(results.Summary()["first_fix_s"].is_null());
+  EXPECT_THAT(results.Finding(), StartsWith("the loaded map was never recognized"));
+  EXPECT_EQ(results.Line(), "loops: 0 closed of 0 candidates");
   results.Finish();
   // Its only world is not connected with the map, so its pose is not in the map frame.
   EXPECT_THAT(folder_.Read("trajectory_final.tum"), StartsWith("# the world frame starts anew"));

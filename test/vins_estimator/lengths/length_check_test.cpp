@@ -112,6 +112,20 @@ TEST(LengthCheck, FindsRightLengthsRight) {
   }
 }
 
+TEST(LengthCheck, BelievesTheEstimatorBeyondFivePercentAndFiveDeviations) {
+  const SimulatedFlight flight = FlyInStereo(Motion::kGentle, 2);
+  const auto is_wrong = [&](const LengthEvidence& log_ratio) {
+    LengthCheck check(flight.sensor, 0.5, StereoPair{0, 1});
+    check.Add(log_ratio);
+    EXPECT_EQ(check.is_wrong(), check.contradiction() > 5);
+    return check.is_wrong();
+  };
+  EXPECT_TRUE(is_wrong({0.1, 0.018}));
+  EXPECT_TRUE(is_wrong({-0.1, 0.018}));
+  EXPECT_FALSE(is_wrong({0.1, 0.022}));
+  EXPECT_FALSE(is_wrong({0.045, 0.008}));
+}
+
 // A turned camera shifts all disparities.
 TEST(LengthCheck, ATurnedSecondCameraIsNoWrongBaseline) {
   for (const double angle : {0.005, -0.005}) {

@@ -62,6 +62,17 @@ TEST(KeyframePolicy, LostTracksMakeAKeyframe) {
   EXPECT_TRUE(Keyframe({0.1, 60, 61}));
 }
 
+// The second newest frame is the last keyframe: a full window has `window_size` frames.
+TEST(KeyframePolicy, KeyframesOfAFullWindowAreApart) {
+  const size_t full = EstimatorConfig().window_size;
+  const double far = 1.1 * EstimatorConfig().keyframe_parallax / kFocalLength;
+  EXPECT_TRUE(Keyframe({0.05, 100, 0, far}, full - 1));
+  EXPECT_FALSE(Keyframe({0.05, 100, 0, far}, full));
+  EXPECT_TRUE(Keyframe({0.1, 100, 0, far}, full));
+  EXPECT_FALSE(Keyframe({0.05, 60, 61}, full));
+  EXPECT_TRUE(Keyframe({0.05, 19}, full)) << "few corners are left";
+}
+
 TEST(KeyframePolicy, TimeMakesAKeyframe) {
   EXPECT_FALSE(Keyframe({0.95}));
   EXPECT_TRUE(Keyframe({1.05}));

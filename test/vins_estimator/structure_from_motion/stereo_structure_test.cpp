@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "common/geometry/so3.h"
 #include "simulator/random.h"
 #include "vins_estimator/geometry/point_triangulation.h"
@@ -21,8 +23,10 @@ constexpr double kPixel = 1 / 460.0;
 // points, of which each is observed by four views in a row and by the second camera in the first of
 // these.
 struct StereoScene {
-  StereoScene(double noise, double outlier_ratio, double step = 0.02) {
-    simulator::Random random(1);
+  StereoScene(double noise, double outlier_ratio, double step = 0.02, double nearest = 2,
+              double farthest = 8, uint64_t seed = 1)
+      : nearest(nearest), farthest(farthest) {
+    simulator::Random random(seed);
     for (int i = 0; i < kStereoViews; ++i) {
       T_W_C.push_back({SO3Exp({0.01 * i, -0.03 * i, 0.02 * i}), step * i * Vector3d(0.5, 0.2, 1)});
     }
@@ -33,7 +37,7 @@ struct StereoScene {
 
   void AddTrack(int first, double noise, double outlier_ratio, simulator::Random* random) {
     const Vector3d ray(random->Uniform(-0.6, 0.6), random->Uniform(-0.4, 0.4), 1);
-    const Vector3d p_W = T_W_C[first] * (random->Uniform(2, 8) * ray);
+    const Vector3d p_W = T_W_C[first] * (random->Uniform(nearest, farthest) * ray);
     const auto seen_from = [&](const Rigid3d& T_W_camera) -> Vector2d {
       const Vector2d xy = (T_W_camera.Inverse() * p_W).hnormalized();
       return xy + noise * Vector2d(random->Normal(), random->Normal());
@@ -76,6 +80,7 @@ struct StereoScene {
     return greatest;
   }
 
+  double nearest, farthest;  // points [m]
   Rigid3d T_C_C1{SO3Exp({0.01, 0.005, -0.01}), {0.11, 0, 0}};
   std::vector<Rigid3d> T_W_C;
   std::vector<Track> tracks;
@@ -114,6 +119,29 @@ TEST(StereoStructure, NeedsNoMotion) {
   const auto structure = scene.Reconstruct();
   ASSERT_TRUE(structure) << scene.reason;
   EXPECT_LT(scene.PositionError(*structure), 0.01);
+}
+
+// Half a pixel is an eighth of the disparity at 12 m. Bias and error of the scale must not exceed
+// what is stated.
+TEST(StereoStructure, StatesTheErrorOfTheScaleOfFarPoints) {
+  constexpr int kScenes = 40;
+  double sum = 0, sum_of_squares = 0;
+  for (uint64_t seed = 1; seed <= kScenes; ++seed) {
+    StereoScene scene(0.5 * kPixel, 0, /*step=*/0.08, /*nearest=*/6, /*farthest=*/20, seed);
+    const auto structure = ReconstructFromStereo(
+        scene.tracks, scene.WrongRotations(),
+        {{Rigid3d(), scene.T_C_C1}, 0.5 * kPixel, 3 * kPixel, /*refinements=*/4}, &scene.reason);
+    ASSERT_TRUE(structure) << scene.reason;
+    const auto length = [](const std::vector<Rigid3d>& T_W_C) {
+      return (T_W_C.back().translation - T_W_C.front().translation).norm();
+    };
+    const double error = std::log(length(structure->T_G_B) / length(scene.T_W_C));
+    EXPECT_LT(structure->scale_deviation, 0.2);
+    sum += error / structure->scale_deviation;
+    sum_of_squares += std::pow(error / structure->scale_deviation, 2);
+  }
+  EXPECT_LT(std::abs(sum / kScenes), 1);
+  EXPECT_LT(sum_of_squares / kScenes, 1.5);
 }
 
 TEST(StereoStructure, ReportsTooFewPointsWithDepth) {

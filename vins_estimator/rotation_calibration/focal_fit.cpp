@@ -14,11 +14,11 @@ namespace {
 
 constexpr size_t kMinFocalPairs = 20, kMaxFocalPairs = 40;
 constexpr double kLeastTurn = 0.04;  // of a pair [rad]
-constexpr int kSteps = 28;           // of the focal length, to either side
+constexpr int kSteps = 22;           // of the focal length, to either side
 constexpr double kStep = 0.025;      // of its logarithm
 constexpr double kLeastError = 0.03;
 constexpr double kImproved = 0.6;   // cost relative to that as configured
-constexpr double kExplained = 0.2;  // largest mean cost of a point that fits; usual are 0.05
+constexpr double kExplained = 0.7;  // largest mean cost of a point that fits
 constexpr double kTolerance = 2;    // scale of the robust cost, in standard deviations
 constexpr int kDirectionIterations = 3;
 

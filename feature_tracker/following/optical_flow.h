@@ -9,11 +9,11 @@
 
 namespace plm_vins {
 
-// Where flow begins.
+// A point to track, and where the search begins.
 struct FlowStart {
   cv::Point2f point;      // in the previous image [px]
   cv::Point2f predicted;  // in the current one
-  bool is_close = false;  // the prediction is good to a few pixels: coarse levels are left out
+  bool is_close = false;  // to a few pixels, so coarse levels are not needed
 };
 
 // Pyramidal Lucas-Kanade flow [Bouguet2001]. The pyramid of each image is built once, and used as

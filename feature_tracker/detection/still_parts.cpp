@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "common/format.h"
+
 namespace plm_vins {
 namespace {
 
@@ -205,6 +207,15 @@ void StillParts::Compare(const Past& reference, const cv::Mat& gray,
   }
   moving_.setTo(255, turned);  // outside `turned`, the previous mask remains
   moving_.setTo(0, around);
+}
+
+std::string StillParts::Finding() const {
+  if (largest_share_ == 0) return "";
+  return Format(
+      "corners stand still in the image while the camera moves (%.0f %% of them, masked since): "
+      "switch an infrared projector off, clean the lens, or mask text and parts of the vehicle "
+      "(fisheye_mask)",
+      100 * largest_share_);
 }
 
 cv::Mat StillParts::Lasting(const Turn& turn) const {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/camera/camera_model.h"
@@ -36,9 +37,9 @@ class StillParts {
   // CV_8UC1, zero where the image stands still; empty if nothing does.
   const cv::Mat& moving() const { return moving_; }
 
-  // Largest share of the tracks that stood still in an image; zero if they were never masked, or
-  // if what stood still has vanished.
-  double largest_share() const { return largest_share_; }
+  // Returns what stood still and what to do; an empty string if nothing was masked, or if what
+  // stood still has vanished.
+  std::string Finding() const;
 
   // Masks from the first image on what another run over the same images found.
   void LearnFrom(const StillParts& earlier);
@@ -79,8 +80,8 @@ class StillParts {
   std::deque<Turn> turns_;  // the newest first
   cv::Mat moving_;
   bool has_learned_ = false;
-  double largest_share_ = 0;
-  double still_area_ = 0;  // share of the image where the scene moves, with largest_share_
+  double largest_share_ = 0;  // of the corners that stood still in an image
+  double still_area_ = 0;     // share of the image where the scene moves, with largest_share_
 };
 
 }  // namespace plm_vins

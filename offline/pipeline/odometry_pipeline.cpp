@@ -108,7 +108,8 @@ void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, int
 
 void OdometryPipeline::Run(FeatureFileReader* features, RecordingInterval interval,
                            const FrameCallback& on_frame) {
-  while (auto item = is_end_() || back_end_.has_found_wrong_length() ? std::nullopt : features->Next()) {
+  while (auto item =
+             is_end_() || back_end_.has_found_wrong_length() ? std::nullopt : features->Next()) {
     if (!item->frame) first_imu_.Add(item->t_ns());
     const RecordingInterval::Part part = interval.Locate(EventOf(*item));
     if (part == RecordingInterval::Part::kEnd) break;

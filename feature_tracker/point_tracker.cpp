@@ -383,9 +383,7 @@ const PointTrackerStatistics& PointTracker::statistics() const {
 
 std::string PointTracker::PairFinding() const { return implementation_->PairFinding(); }
 
-std::string PointTracker::StillPartsFinding() const {
-  return implementation_->StillPartsFinding();
-}
+std::string PointTracker::StillPartsFinding() const { return implementation_->StillPartsFinding(); }
 
 void PointTracker::LearnFrom(const PointTracker& earlier) {
   implementation_->LearnFrom(*earlier.implementation_);

@@ -7,7 +7,6 @@
 
 #include "common/camera/image_format.h"
 #include "common/features/feature_checks.h"
-#include "common/format.h"
 #include "feature_tracker/contrast_equalizer.h"
 #include "feature_tracker/depth_reader.h"
 #include "feature_tracker/detection/corner_detector.h"
@@ -118,7 +117,9 @@ class PointTracker::Implementation {
     const std::string depth = depth_reader_.Finding();
     return depth.empty() && stereo_ ? stereo_->Finding() : depth;
   }
-  double StillShare() const { return still_parts_.largest_share(); }
+  std::string StillPartsFinding() const { return still_parts_.Finding(); }
+  void LearnFrom(const Implementation& earlier) { still_parts_.LearnFrom(earlier.still_parts_); }
+  bool HasLearned() const { return still_parts_.has_learned(); }
   cv::Mat DrawTracks() const { return DrawPointTracks(sample_.gray, tracks_); }
 
  private:
@@ -382,15 +383,13 @@ const PointTrackerStatistics& PointTracker::statistics() const {
 
 std::string PointTracker::PairFinding() const { return implementation_->PairFinding(); }
 
-std::string PointTracker::StillPartsFinding() const {
-  const double share = implementation_->StillShare();
-  if (share == 0) return "";
-  return Format(
-      "corners stand still in the image while the camera moves (%.0f %% of them, masked since): "
-      "switch an infrared projector off, clean the lens, or mask text and parts of the vehicle "
-      "(fisheye_mask)",
-      100 * share);
+std::string PointTracker::StillPartsFinding() const { return implementation_->StillPartsFinding(); }
+
+void PointTracker::LearnFrom(const PointTracker& earlier) {
+  implementation_->LearnFrom(*earlier.implementation_);
 }
+
+bool PointTracker::HasLearned() const { return implementation_->HasLearned(); }
 
 cv::Mat PointTracker::DrawTracks() const { return implementation_->DrawTracks(); }
 

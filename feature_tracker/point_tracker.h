@@ -60,6 +60,12 @@ class PointTracker {
   // Describes parts of the image that stand still while the camera moves; empty if there are none.
   std::string StillPartsFinding() const;
 
+  // Masks from the first image on what another tracker found to stand still in the same images.
+  void LearnFrom(const PointTracker& earlier);
+
+  // Returns whether parts of the image were masked after the first image.
+  bool HasLearned() const;
+
   // Returns the last image with its tracks drawn (CV_8UC3), colored by age.
   cv::Mat DrawTracks() const;
 

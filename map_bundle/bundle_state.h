@@ -38,7 +38,7 @@ struct BundleKeyframe {
   bool moves() const { return noise.has_value(); }
 };
 
-// Longer intervals between keyframes have no IMU factor: it would say nothing about the positions.
+// Longer intervals between keyframes have no IMU factor, since positions drift too far in them.
 constexpr int64_t kLongestMotion_ns = 10'000'000'000;
 
 // Returns whether an IMU factor connects two keyframes that follow each other.

@@ -253,8 +253,8 @@ struct Flight {
   }
 };
 
-// Flies from the first image on, and again if a stated length turns out to be wrong meanwhile, so
-// that no result depends on it.
+// Flies from the first image on, and again if something is found that must be ignored, so that no
+// result depends on it.
 std::unique_ptr<Flight> Fly(const Arguments& arguments, const Config& config, Cuts* cuts) {
   std::unique_ptr<OdometryPipeline> earlier;
   while (true) {
@@ -262,7 +262,8 @@ std::unique_ptr<Flight> Fly(const Arguments& arguments, const Config& config, Cu
     if (earlier) flight->pipeline->LearnFrom(*earlier);
     flight->Estimate(arguments, cuts);
     if (!flight->pipeline->must_repeat() || cuts->recording) return flight;
-    std::fprintf(stderr, "a stated length is wrong: beginning again, without it\n");
+    std::fprintf(stderr,
+                 "beginning again: the input is worse than stated, see the warnings below\n");
     earlier = std::move(flight->pipeline);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -74,6 +75,19 @@ class TrackingStage {
 
   // Returns the last image of the i-th tracked camera with its tracks drawn.
   cv::Mat DrawTracks(size_t i = 0) const { return cameras_[i].tracker->DrawTracks(); }
+
+  // Passes on what the trackers of another run over the same images found.
+  void LearnFrom(const TrackingStage& earlier) {
+    for (size_t i = 0; i < cameras_.size(); ++i) {
+      cameras_[i].tracker->LearnFrom(*earlier.cameras_[i].tracker);
+    }
+  }
+
+  // Returns whether a tracker found something that it did not know in the first image.
+  bool HasLearned() const {
+    return std::any_of(cameras_.begin(), cameras_.end(),
+                       [](const TrackedCamera& camera) { return camera.tracker->HasLearned(); });
+  }
 
   // Applies a function to all trackers.
   template <typename Function>

@@ -157,14 +157,10 @@ std::string EstimationStage::ImuContradiction() const {
   const ImuNoise& configured = config_.sensor.imu_noise;
   const ImuNoise& noise = newest.has_pose ? newest.imu_noise : configured;
   ContradictionEvidence evidence;
-  evidence.noise_factor = std::max({std::sqrt(newest.imu_noise_scale),
-                                    noise.accel_density / NoiseOfSamples().accel_density,
-                                    noise.gyro_density / NoiseOfSamples().gyro_density});
+  evidence.noise_factor = NoiseFactor();
   const bool at_limit = IsAtLimit(noise.accel_density, configured.accel_density) ||
                         IsAtLimit(noise.gyro_density, configured.gyro_density);
-  if (newest.imu_noise_scale <= 1 && evidence.noise_factor < kContradictingNoise && !at_limit) {
-    return "";
-  }
+  if (evidence.noise_factor < kContradictingNoise && !at_limit) return "";
   const ImuNoiseMeter& meter = world_->imu_noise_meter;
   evidence.imu_jitter = world_->imu_rhythm.Jitter();
   evidence.image_jitter = world_->image_rhythm.Jitter();
@@ -179,11 +175,15 @@ std::string EstimationStage::ImuContradiction() const {
   return DescribeContradiction(evidence);
 }
 
-ImuNoise EstimationStage::NoiseOfSamples() const {
-  ImuNoise noise = config_.sensor.imu_noise;
-  noise.accel_density = std::max(noise.accel_density, world_->imu_noise_meter.accel_density());
-  noise.gyro_density = std::max(noise.gyro_density, world_->imu_noise_meter.gyro_density());
-  return noise;
+double EstimationStage::NoiseFactor() const {
+  const EstimatorReport& newest = world_->newest;
+  const ImuNoise& configured = config_.sensor.imu_noise;
+  const ImuNoise& noise = newest.has_pose ? newest.imu_noise : configured;
+  const ImuNoiseMeter& samples = world_->imu_noise_meter;
+  return std::max(
+      {std::sqrt(newest.imu_noise_scale),
+       noise.accel_density / std::max(configured.accel_density, samples.accel_density()),
+       noise.gyro_density / std::max(configured.gyro_density, samples.gyro_density())});
 }
 
 const Finding& EstimationStage::InputFinding() const { return world_->input_faults.finding(); }
@@ -201,7 +201,8 @@ RankedFinding EstimationStage::FindInputFault() const {
   if (!fault.empty()) return {fault, kFact};
   const RankedFinding rotations = FindRotationFault();
   const RankedFinding lengths = {lengths_->Finding(), lengths_->Contradiction()};
-  const RankedFinding& worst = rotations.sigmas >= lengths.sigmas ? rotations : lengths;
+  // A wrong focal length or rotation makes lengths wrong; a wrong length turns no camera.
+  const RankedFinding& worst = rotations.text.empty() ? lengths : rotations;
   if (!worst.text.empty() || !estimator_->SeesUnfeltMotion()) return worst;
   return {world_->newest.has_pose ? kUnfeltInFlight : kUnfeltBeforeStart, kUnfeltMotion};
 }
@@ -231,7 +232,8 @@ RankedFinding EstimationStage::FindRotationFault() const {
 
 void EstimationStage::CheckRotations(const FrameMeasurement& measurement,
                                      const EstimatorOutput& output) {
-  const bool in_doubt = !output.has_pose || output.contradicted || output.imu_noise_scale > 1;
+  const bool in_doubt = !output.has_pose || output.contradicted || output.imu_noise_scale > 1 ||
+                        NoiseFactor() > kContradictingNoise || lengths_->Contradiction() > 0;
   world_->doubt.Add(ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns),
                     in_doubt);
   for (RotationCheck& check : world_->rotation_checks) {

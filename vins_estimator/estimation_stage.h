@@ -104,8 +104,9 @@ class EstimationStage {
   void StartOver(const std::string& reason);
   // Repeats the estimate from the stored images without the lengths that are wrong.
   void RepeatWithoutWrongLengths();
-  // Returns the configured noise, or the noise that the samples show if that is greater.
-  ImuNoise NoiseOfSamples() const;
+  // Returns the ratio of the estimated noise to the configured one, or to that which the samples
+  // show if it is greater.
+  double NoiseFactor() const;
   // Searches for the cause (RotationCheck) if the estimate stays in doubt.
   void CheckRotations(const FrameMeasurement& measurement, const EstimatorOutput& output);
 

@@ -8,7 +8,6 @@
 
 #include "common/camera/kannala_brandt.h"
 #include "common/camera/mei.h"
-#include "common/camera/pinhole_radtan.h"
 
 namespace plm_vins {
 namespace {
@@ -44,10 +43,9 @@ CameraParameters CameraParameters::With(const Intrinsics& intrinsics) const {
 std::unique_ptr<const CameraModel> CameraModel::Create(const CameraParameters& parameters) {
   Check(parameters);
   switch (parameters.model) {
-    case CameraParameters::Model::kPinholeRadtan:
-      return std::make_unique<PinholeRadtan>(parameters);
     case CameraParameters::Model::kPinholeEquidistant:
       return std::make_unique<KannalaBrandt>(parameters);
+    case CameraParameters::Model::kPinholeRadtan:
     case CameraParameters::Model::kMei:
       return std::make_unique<Mei>(parameters);
   }

@@ -14,7 +14,7 @@ constexpr double kMargin = 1e-9;  // distance from singular rays
 
 Mei::Mei(const CameraParameters& parameters)
     : CameraModel(parameters),
-      xi_(parameters.xi),
+      xi_(parameters.model == CameraParameters::Model::kMei ? parameters.xi : 0),
       min_cosine_(kMargin - (xi_ > 1 ? 1 / xi_ : xi_)),
       distortion_(parameters.distortion) {}
 
@@ -59,9 +59,11 @@ std::optional<Eigen::Vector2d> Mei::PlaneToRay(const Eigen::Vector2d& point,
 std::optional<Eigen::Vector2d> Mei::Unproject(const Eigen::Vector2d& pixel,
                                               Eigen::Matrix2d* d_xy_d_pixel) const {
   Eigen::Matrix2d d_point_d_distorted, d_xy_d_point;
-  const auto point = distortion_.Undistort(PixelToPlane(pixel), &d_point_d_distorted);
+  const bool differentiates = d_xy_d_pixel != nullptr;
+  const auto point =
+      distortion_.Undistort(PixelToPlane(pixel), differentiates ? &d_point_d_distorted : nullptr);
   if (!point) return std::nullopt;
-  auto xy = PlaneToRay(*point, &d_xy_d_point);
+  auto xy = PlaneToRay(*point, differentiates ? &d_xy_d_point : nullptr);
   if (xy && d_xy_d_pixel) {
     *d_xy_d_pixel = d_xy_d_point * d_point_d_distorted * focal().cwiseInverse().asDiagonal();
   }

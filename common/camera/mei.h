@@ -8,7 +8,8 @@ namespace plm_vins {
 
 // Unified omnidirectional camera [Mei2007]: the point is projected onto the unit sphere and then
 // from a center at distance xi behind the sphere's center, (X, Y) / (Z + xi |p|); then radial and
-// tangential distortion and scaling by gamma1, gamma2. With xi = 0 it equals PinholeRadtan.
+// tangential distortion and scaling by gamma1, gamma2. The pinhole camera with radial and
+// tangential distortion of (X / Z, Y / Z) is the one with xi = 0.
 class Mei final : public CameraModel {
  public:
   explicit Mei(const CameraParameters& parameters);

@@ -5,14 +5,18 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "common/format.h"
+
 namespace plm_vins {
 namespace {
 
-constexpr double kMaxAge = 1.0;           // maximum age of the reference image [s]
-constexpr double kPastInterval = 0.1;     // interval between stored images [s]
-constexpr double kCompareInterval = 0.2;  // interval between comparisons [s]
-constexpr double kMinShift_px = 8;        // minimum shift of the scene due to the rotation
-constexpr double kSureRate = 0.5;         // exceeds any gyroscope bias [rad/s]
+constexpr double kMaxAge = 1.0;                // maximum age of the reference image [s]
+constexpr double kPastInterval = 0.1;          // interval between stored images [s]
+constexpr double kCompareInterval = 0.2;       // interval between comparisons [s]
+constexpr double kMinShift_px = 8;             // minimum shift of the scene due to the rotation
+constexpr size_t kTurns = 8;                   // comparisons to remember
+constexpr double kSureRate = 0.5;              // exceeds any gyroscope bias [rad/s]
+const double kOtherAxis = std::cos(M_PI / 4);  // cosine of the least angle between other axes
 constexpr int kCell_px = 16;
 
 constexpr int kWindow_px = 5;          // correlation window; as large as a projected dot
@@ -113,7 +117,11 @@ void StillParts::Add(const ImageSample& image, const std::optional<Eigen::Quater
   if (reference != nullptr) {
     compared_ns_ = image.t_ns;
     const double share = StandingShare(*reference, image.gray, corners);
-    if (share > kStillShare || !moving_.empty()) Compare(*reference, image.gray, share);
+    if (share > kStillShare || !moving_.empty()) {
+      Compare(*reference, image.gray, corners);
+    } else {
+      Remember({Eigen::AngleAxisd(reference->R_now_then).axis(), {}});
+    }
   }
   if (past_.empty() || ToSeconds(image.t_ns - past_.back().image.t_ns) >= kPastInterval) {
     past_.push_back({image, Eigen::Quaterniond::Identity()});
@@ -165,17 +173,26 @@ cv::Mat StillParts::TurnedCells(const Eigen::Quaterniond& R_now_then) const {
   return cells;
 }
 
-void StillParts::Compare(const Past& reference, const cv::Mat& gray, double standing_share) {
+void StillParts::Compare(const Past& reference, const cv::Mat& gray,
+                         const std::vector<cv::Point2f>& corners) {
   const cv::Mat turned = TurnedCells(reference.R_now_then);
   const Correlation correlation = Correlate(reference.image.gray, gray);
-  const cv::Mat still =
-      correlation.textured & turned & (correlation.covariance > kSame * correlation.product);
+  const Eigen::AngleAxisd rotation(reference.R_now_then);
+  Turn turn{rotation.axis(),
+            correlation.textured & turned & (correlation.covariance > kSame * correlation.product)};
+  const cv::Mat still = Lasting(turn);
+  Remember(std::move(turn));
+  int decided = 0, standing = 0;
+  for (const cv::Point2f& corner : corners) {
+    decided += turned.at<uint8_t>(corner) != 0 ? 1 : 0;
+    standing += still.at<uint8_t>(corner) != 0 ? 1 : 0;
+  }
   const double seconds = ToSeconds(*compared_ns_ - reference.image.t_ns);
-  const double rate = Eigen::AngleAxisd(reference.R_now_then).angle() / seconds;
-  const bool many_stand = standing_share > kStillShare;
+  const double rate = rotation.angle() / seconds;
+  const bool many_stand = standing >= kMinCorners && standing > kStillShare * decided;
   const bool was_masked = !moving_.empty();
   if (many_stand && (rate > kSureRate || SceneMoves(reference.image.gray, gray, turned))) {
-    largest_share_ = std::max(largest_share_, standing_share);
+    largest_share_ = std::max(largest_share_, standing / static_cast<double>(decided));
     still_area_ = std::max(still_area_, AreaOf(still) / AreaOf(turned));
   } else if (!was_masked) {
     return;
@@ -184,9 +201,43 @@ void StillParts::Compare(const Past& reference, const cv::Mat& gray, double stan
   }
   cv::Mat around;
   cv::dilate(still, around, cv::Mat::ones(kWindow_px, kWindow_px, CV_8UC1));
-  if (!was_masked) moving_ = cv::Mat(gray.size(), CV_8UC1, cv::Scalar(255));
+  if (!was_masked) {
+    moving_ = cv::Mat(gray.size(), CV_8UC1, cv::Scalar(255));
+    has_learned_ = true;
+  }
   moving_.setTo(255, turned);  // outside `turned`, the previous mask remains
   moving_.setTo(0, around);
+}
+
+std::string StillParts::Finding() const {
+  if (largest_share_ == 0) return "";
+  return Format(
+      "corners stand still in the image while the camera moves (%.0f %% of them, masked since): "
+      "switch an infrared projector off, clean the lens, or mask text and parts of the vehicle "
+      "(fisheye_mask)",
+      100 * largest_share_);
+}
+
+cv::Mat StillParts::Lasting(const Turn& turn) const {
+  cv::Mat before = cv::Mat::zeros(turn.still.size(), CV_8UC1);
+  const auto other = std::find_if(turns_.begin(), turns_.end(), [&](const Turn& earlier) {
+    return earlier.axis.dot(turn.axis) < kOtherAxis;
+  });
+  if (other != turns_.end() && !other->still.empty()) before |= other->still;
+  if (!moving_.empty()) before |= ~moving_;
+  return turn.still & before;
+}
+
+void StillParts::Remember(Turn turn) {
+  turns_.push_front(std::move(turn));
+  if (turns_.size() > kTurns) turns_.pop_back();
+}
+
+void StillParts::LearnFrom(const StillParts& earlier) {
+  Reset();
+  moving_ = earlier.moving_;
+  largest_share_ = earlier.largest_share_;
+  still_area_ = earlier.still_area_;
 }
 
 void StillParts::Reset() { *this = StillParts(camera_); }

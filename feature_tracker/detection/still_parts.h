@@ -7,6 +7,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/camera/camera_model.h"
@@ -20,8 +21,10 @@ namespace plm_vins {
 //
 // The image is compared with one from up to a second before, since which the camera has turned so
 // far that the scene has moved by many pixels. Parts that look equal at the same place in both
-// images do not belong to the scene. They are masked only if many tracks lie on them while other
-// parts of the image move, because a biased gyroscope shows a rotation at standstill as well.
+// images may not belong to the scene. They are masked only if many tracks lie on them while other
+// parts of the image move, because a biased gyroscope shows a rotation at standstill as well; and
+// only if they stood still in the last turn about another axis or to the other side as well,
+// because near points stand still for a moment where turning and flying past cancel.
 class StillParts {
  public:
   explicit StillParts(std::shared_ptr<const CameraModel> camera) : camera_(std::move(camera)) {}
@@ -34,9 +37,15 @@ class StillParts {
   // CV_8UC1, zero where the image stands still; empty if nothing does.
   const cv::Mat& moving() const { return moving_; }
 
-  // Largest share of the tracks that stood still in an image; zero if they were never masked, or
-  // if what stood still has vanished.
-  double largest_share() const { return largest_share_; }
+  // Returns what stood still and what to do; an empty string if nothing was masked, or if what
+  // stood still has vanished.
+  std::string Finding() const;
+
+  // Masks from the first image on what another run over the same images found.
+  void LearnFrom(const StillParts& earlier);
+
+  // Returns whether something was masked that was not known from the first image on.
+  bool has_learned() const { return has_learned_; }
 
   void Reset();
 
@@ -46,6 +55,12 @@ class StillParts {
     Eigen::Quaterniond R_now_then;
   };
 
+  // Result of a comparison.
+  struct Turn {
+    Eigen::Vector3d axis;  // of the rotation
+    cv::Mat still;         // CV_8UC1: not zero where the image stands still; empty if nowhere
+  };
+
   // Returns the newest image from which the camera has turned far enough, or null.
   const Past* FindReference() const;
   bool Turns(const Eigen::Quaterniond& R_now_then, const cv::Point& pixel) const;
@@ -53,14 +68,20 @@ class StillParts {
                        const std::vector<cv::Point2f>& corners) const;
   // Returns the cells of the image (CV_8UC1) in which a rotation moves the scene by many pixels.
   cv::Mat TurnedCells(const Eigen::Quaterniond& R_now_then) const;
-  void Compare(const Past& reference, const cv::Mat& gray, double standing_share);
+  void Compare(const Past& reference, const cv::Mat& gray, const std::vector<cv::Point2f>& corners);
+  // Returns the parts that stand still in this turn and did so in the last turn about another axis,
+  // or are masked already.
+  cv::Mat Lasting(const Turn& turn) const;
+  void Remember(Turn turn);
 
   std::shared_ptr<const CameraModel> camera_;
   std::deque<Past> past_;  // oldest first
   std::optional<int64_t> compared_ns_;
+  std::deque<Turn> turns_;  // the newest first
   cv::Mat moving_;
-  double largest_share_ = 0;
-  double still_area_ = 0;  // share of the image where the scene moves, with largest_share_
+  bool has_learned_ = false;
+  double largest_share_ = 0;  // of the corners that stood still in an image
+  double still_area_ = 0;     // share of the image where the scene moves, with largest_share_
 };
 
 }  // namespace plm_vins

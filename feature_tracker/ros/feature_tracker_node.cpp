@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The point front end as a node. Publishes ~feature, ~feature_img and ~restart.
 
-#include "feature_tracker/ros/point_node_traits.h"
-#include "tracking/ros/tracker_node.h"
+#include "common/ros/node_setup.h"
+#include "feature_tracker/ros/point_tracker_node.h"
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "feature_tracker", [](const plm_vins::Config& config) {
-    plm_vins::TrackerNode<plm_vins::PointNodeTraits> node(config, ros::NodeHandle(),
-                                                          ros::NodeHandle("~"));
+    plm_vins::PointTrackerNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
     plm_vins::Spin();
   });
 }

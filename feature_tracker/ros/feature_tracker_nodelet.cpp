@@ -3,11 +3,10 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "common/ros/nodelet_of.h"
-#include "feature_tracker/ros/point_node_traits.h"
-#include "tracking/ros/tracker_node.h"
+#include "feature_tracker/ros/point_tracker_node.h"
 
 namespace plm_vins {
-using FeatureTrackerNodelet = NodeletOf<TrackerNode<PointNodeTraits>>;
+using FeatureTrackerNodelet = NodeletOf<PointTrackerNode>;
 }  // namespace plm_vins
 
 PLUGINLIB_EXPORT_CLASS(plm_vins::FeatureTrackerNodelet, nodelet::Nodelet)

@@ -3,7 +3,8 @@
 // instead of exiting, if the configuration disables lines, since launch files restart nodes that
 // exit.
 
-#include "linefeature_tracker/ros/line_node_traits.h"
+#include "common/ros/node_setup.h"
+#include "linefeature_tracker/ros/line_tracker_node.h"
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "linefeature_tracker", [](const plm_vins::Config& config) {

@@ -4,7 +4,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "common/ros/nodelet_of.h"
-#include "linefeature_tracker/ros/line_node_traits.h"
+#include "linefeature_tracker/ros/line_tracker_node.h"
 
 namespace plm_vins {
 using LineFeatureTrackerNodelet = NodeletOf<LineTrackerNode>;

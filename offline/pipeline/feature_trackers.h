@@ -33,6 +33,10 @@ class FeatureTrackers {
   std::optional<TrackedFeatures> Pop();
   std::optional<TrackedFeatures> Flush();
 
+  // See TrackingStage.
+  void LearnFrom(const FeatureTrackers& earlier) { points_.LearnFrom(earlier.points_); }
+  bool HasLearned() const { return points_.HasLearned(); }
+
   std::string PairFinding() const { return points_.Finding(&PointTracker::PairFinding); }
   std::string StillPartsFinding() const {
     return points_.Finding(&PointTracker::StillPartsFinding);

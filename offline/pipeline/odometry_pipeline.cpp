@@ -76,6 +76,12 @@ std::vector<std::string> OdometryPipeline::Findings() const {
   return findings;
 }
 
+void OdometryPipeline::LearnFrom(const OdometryPipeline& earlier) {
+  trackers_.LearnFrom(earlier.trackers_);
+  // Corners that stand still contradict right lengths as well.
+  if (!earlier.trackers_.HasLearned()) back_end_.LearnFrom(earlier.back_end_);
+}
+
 void OdometryPipeline::ShowTracks(double interval, TrackImageCallback on_images) {
   track_image_interval_ns_ = ToNanoseconds(interval);
   on_track_images_ = std::move(on_images);
@@ -89,7 +95,7 @@ void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, int
   };
   const auto estimate = [&](TrackedItem item) {
     Consume(std::move(item), on_frame);
-    return !must_repeat();
+    return !back_end_.has_found_wrong_length();
   };
   if (threads > 1) {
     RunAhead<TrackedItem>(kQueueCapacity, track, estimate);
@@ -102,7 +108,8 @@ void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, int
 
 void OdometryPipeline::Run(FeatureFileReader* features, RecordingInterval interval,
                            const FrameCallback& on_frame) {
-  while (auto item = is_end_() || must_repeat() ? std::nullopt : features->Next()) {
+  while (auto item =
+             is_end_() || back_end_.has_found_wrong_length() ? std::nullopt : features->Next()) {
     if (!item->frame) first_imu_.Add(item->t_ns());
     const RecordingInterval::Part part = interval.Locate(EventOf(*item));
     if (part == RecordingInterval::Part::kEnd) break;
@@ -180,6 +187,7 @@ void OdometryPipeline::AddImage(const RecordingEvent& event, cv::Mat image) {
 
 bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit) {
   still_parts_.Set(frame.points.features.t_ns, trackers_.StillPartsFinding());
+  if (trackers_.HasLearned()) return false;
   // The last power of two is in the second half of any run, whatever its length.
   if (IsPowerOfTwo(++tracked_images_)) {
     points_image_ = trackers_.DrawPoints();

@@ -64,12 +64,13 @@ class OdometryPipeline {
   // ends.
   void EndWhere(std::function<bool()> is_end) { is_end_ = std::move(is_end); }
 
-  // Ignores from the start the lengths that another run over the same input found wrong.
-  void LearnFrom(const OdometryPipeline& earlier) { back_end_.LearnFrom(earlier.back_end_); }
+  // Ignores from the start what another run over the same input found out: wrong lengths, and parts
+  // of the image that stand still.
+  void LearnFrom(const OdometryPipeline& earlier);
 
-  // Returns whether a stated length turned out to be wrong. The run has then ended, since the poses
-  // before were estimated with it; another one can learn from it.
-  bool must_repeat() const { return back_end_.has_found_wrong_length(); }
+  // Returns whether Run() has found something to ignore, and ended early, since the poses before
+  // depend on it; another run can learn from it.
+  bool must_repeat() const { return back_end_.has_found_wrong_length() || trackers_.HasLearned(); }
 
   // Processes the recording; `on_frame` is called in the caller's thread, in temporal order.
   void Run(Recording* recording, RecordingInterval interval, int threads,

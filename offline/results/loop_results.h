@@ -88,7 +88,7 @@ class LoopResults {
   std::vector<std::pair<size_t, std::string>> worlds_;  // first pose, reason; without the first
   std::optional<double> first_fix_;                     // since the first pose [s]
   int loaded_keyframes_ = 0;                            // of the map that was loaded
-  int64_t recognitions_ = 0;                            // of them
+  int64_t recognitions_ = 0;                            // of these keyframes
   int64_t keyframes_ = 0;
   LoopTally tally_;
   Series keyframe_ms_;

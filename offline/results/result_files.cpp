@@ -14,7 +14,6 @@
 #include "vins_estimator/output/calibrated_config.h"
 #include "vins_estimator/output/config_json.h"
 #include "vins_estimator/output/covariance_table.h"
-#include "vins_estimator/output/frame_table.h"
 #include "vins_estimator/output/tum_format.h"
 
 namespace plm_vins {

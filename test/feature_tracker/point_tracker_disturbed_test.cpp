@@ -66,17 +66,21 @@ cv::Mat Dots(int count) {
 
 class TurningCamera : public PointTrackerTest {
  protected:
-  // Tracks a camera that turns by `rate` per image, with the gyroscope of one that turns by `felt`.
-  PointFrame Turn(int images, double rate, double felt, const cv::Mat& dots) {
+  // Tracks a camera that turns by `rate` per image and back from each `swing` images on, with the
+  // gyroscope of one that turns by `felt`.
+  PointFrame Turn(int images, double rate, double felt, const cv::Mat& dots, int swing = 12) {
     PointFrame frame;
+    int angle = 0;
     for (int i = 0; i < images; ++i) {
-      const Eigen::Quaterniond R_now_start = SO3Exp({0, rate * i, 0});
+      const int step = i == 0 ? 0 : (i - 1) / swing % 2 == 0 ? 1 : -1;
+      angle += step;
+      const Eigen::Quaterniond R_now_start(SO3Exp({0, rate * angle, 0}));
       cv::Mat image;
       cv::addWeighted(scene_.View(RotationHomography(R_now_start)), 0.5, dots, 1, 0, image);
       cv::Mat noise(image.size(), CV_16S);
       cv::RNG(i + 1).fill(noise, cv::RNG::NORMAL, 0, 1);
       cv::add(image, noise, image, {}, CV_8U);
-      frame = Track(image, Eigen::Quaterniond(SO3Exp({0, felt, 0})));
+      frame = Track(image, Eigen::Quaterniond(SO3Exp({0, felt * step, 0})));
     }
     return frame;
   }
@@ -98,6 +102,31 @@ TEST_F(TurningCamera, DotsThatStandStillAreNotTracked) {
     EXPECT_GT(frame.points.size(), 30u) << count;
     EXPECT_EQ(tracker_->StillPartsFinding().rfind("corners stand still", 0), 0u) << count;
   }
+}
+
+// In a turn to one side, near points stand still where flying past cancels it.
+TEST_F(TurningCamera, NothingIsMaskedInTurnsToOneSide) {
+  Turn(60, 0.006, 0.006, Dots(300), 60);
+  EXPECT_EQ(tracker_->StillPartsFinding(), "");
+}
+
+TEST_F(TurningCamera, DotsThatAreKnownAreNotTrackedFromTheFirstImageOn) {
+  const cv::Mat dots = Dots(600);
+  Turn(40, 0.006, 0.006, dots);
+  EXPECT_TRUE(tracker_->HasLearned());
+  const std::unique_ptr<PointTracker> earlier = std::move(tracker_);
+  Configure(TestConfig());
+  tracker_->LearnFrom(*earlier);
+  EXPECT_NE(tracker_->StillPartsFinding(), "");
+  cv::Mat near_dots;
+  cv::dilate(dots, near_dots, cv::Mat::ones(3, 3, CV_8U));
+  int on_dots = 0;
+  const PointFrame frame = Turn(1, 0, 0, dots);
+  for (const PointObservation& point : frame.points) {
+    on_dots += near_dots.at<uint8_t>(Pixel(point)) != 0 ? 1 : 0;
+  }
+  EXPECT_LT(on_dots, 0.1 * frame.points.size());
+  EXPECT_FALSE(tracker_->HasLearned());
 }
 
 // The projector is switched off, or the lens wiped.

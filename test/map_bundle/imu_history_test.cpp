@@ -40,7 +40,7 @@ TEST(ImuHistoryTest, IntegratesBetweenStamps) {
   EXPECT_LT((between->delta_v() - expected.delta_v()).norm(), 1e-12);
 }
 
-// What remains serves the intervals before and after, up to both times.
+// The remaining samples serve the intervals before and after, up to both times.
 TEST(ImuHistoryTest, ForgetsWhatIsNotNeeded) {
   const ImuHistory complete = SecondOfSamples();
   ImuHistory history = SecondOfSamples();

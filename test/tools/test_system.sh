@@ -9,7 +9,7 @@ arch="$1" runner=()
 shift
 
 build() {
-  "$root/scripts/setup.sh" locales ${CCACHE_DIR:+ccache}
+  "$root/scripts/setup.sh" git locales ${CCACHE_DIR:+ccache}
   TARGETS="all tests" "$root/scripts/build.sh" -DBUILD_TESTING=ON
 }
 
@@ -21,7 +21,7 @@ cross_build() {
   DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends cmake \
     crossbuild-essential-arm64 libboost-program-options-dev:arm64 libceres-dev:arm64 \
     libgmock-dev:arm64 libgtest-dev:arm64 libopencv-contrib-dev:arm64 libopencv-dev:arm64 \
-    libyaml-cpp-dev:arm64 locales nlohmann-json3-dev python3-matplotlib python3-numpy \
+    libyaml-cpp-dev:arm64 git locales nlohmann-json3-dev python3-matplotlib python3-numpy \
     qemu-user-static ${CCACHE_DIR:+ccache}
   TARGETS="all tests" "$root/scripts/build.sh" -DBUILD_ROS=OFF -DCMAKE_SYSTEM_NAME=Linux \
     -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++ \

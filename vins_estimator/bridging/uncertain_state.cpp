@@ -7,6 +7,13 @@
 #include "vins_estimator/factors/imu_factor.h"
 
 namespace plm_vins {
+namespace {
+
+Matrix15d Propagated(const Matrix15d& J, const Matrix15d& covariance) {
+  return J * covariance * J.transpose();
+}
+
+}  // namespace
 
 // The residual between the two states is the noise n of the interval; linearized, J_0 dx_0 + J_1
 // dx_1 = n.
@@ -17,8 +24,8 @@ UncertainState Propagate(const UncertainState& start, const Preintegration& moti
   ImuResidual(motion, gravity_W, start.state, end, &jacobians);
   const Matrix15d J_0 = jacobians.ByFirst();
   const Matrix15d d_end_d_noise = jacobians.BySecond().inverse();
-  return {end, d_end_d_noise * (J_0 * start.covariance * J_0.transpose() + motion.Covariance()) *
-                   d_end_d_noise.transpose()};
+  const Matrix15d noise = Propagated(J_0, start.covariance) + motion.Covariance();
+  return {end, Propagated(d_end_d_noise, noise)};
 }
 
 double PositionDeviation(const UncertainState& estimate) {

@@ -30,6 +30,7 @@ constexpr int kRefinements = 4;
 constexpr double kWrong = 5;            // standard deviations
 constexpr double kLargestError = 0.05;  // of a calibrated length, relative
 constexpr int kContradictions = 2;
+constexpr double kAgree = 2;  // standard deviations by which two estimates of a ratio may differ
 // Deviation of the gyro's bias that is estimated from the images, times their duration [rad].
 constexpr double kGyroBiasByTime = 0.002;
 // Deviations of a ratio that needs no more evidence: if it fits, and if it does not.
@@ -127,14 +128,12 @@ void LengthCheck::Judge(const RatioCurve& curve) {
 }
 
 void LengthCheck::Add(const LengthEvidence& log_ratio) {
-  if (is_known_ || std::abs(log_ratio.error) < kLargestError) return;
+  if (is_known_ || is_wrong_ || ratio_.deviation > kRoughly) return;
+  const double difference =
+      (log_ratio.error - ratio_.log_ratio) / std::hypot(log_ratio.deviation, ratio_.deviation);
+  if (std::abs(difference) > kAgree || std::abs(log_ratio.error) < kLargestError) return;
   by_estimator_ = std::abs(log_ratio.error) / log_ratio.deviation;
-  if (by_estimator_ < kWrong) return;
-  is_wrong_ = true;
-  if (log_ratio.deviation < ratio_.deviation) {
-    ratio_.log_ratio = log_ratio.error;
-    ratio_.deviation = log_ratio.deviation;
-  }
+  is_wrong_ = by_estimator_ > kWrong;
 }
 
 // Drops the beginning of a long standstill. Returns whether it still lasts.

@@ -31,7 +31,8 @@ class LengthCheck {
   // Adds the next image.
   void Add(const FrameMeasurement& measurement);
 
-  // Adds the evidence of the estimator on the logarithm of the ratio.
+  // Adds the evidence of the estimator on the logarithm of the ratio. Only if it agrees with the
+  // odometry is it a fact about the length: other faults deceive each in another way.
   void Add(const LengthEvidence& log_ratio);
 
   // Drops the images of the current piece, as after a jump of the clock.

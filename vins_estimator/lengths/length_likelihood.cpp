@@ -75,8 +75,8 @@ MatrixX NoiseCovariance(const MeasuredMotion& motion, const Prediction& path,
       rows.middleCols<3>(ImuErrorIndex::kRotation) =
           0.5 * dt * dt * Skew(gravity_G) * path.T_G_B[i + 1].R();
     }
-    covariance +=
-        effect * motion.intervals[i]->Covariance().topLeftCorner<9, 9>() * effect.transpose();
+    const MatrixX noise = motion.intervals[i]->Covariance().topLeftCorner<9, 9>();
+    covariance += effect * noise * effect.transpose();
   }
   return covariance;
 }
@@ -110,7 +110,8 @@ class Spectrum {
   Spectrum(const MatrixX& A, const Eigen::LLT<MatrixX>& B, const VectorX& mu, const VectorX& q) {
     const auto L = B.matrixL();
     const MatrixX half = L.solve(A);
-    const Eigen::SelfAdjointEigenSolver<MatrixX> eigen(L.solve(MatrixX(half.transpose())));
+    const MatrixX ratio = L.solve(MatrixX(half.transpose()));
+    const Eigen::SelfAdjointEigenSolver<MatrixX> eigen(ratio);
     d_ = eigen.eigenvalues().cwiseMax(0);
     mu_ = eigen.eigenvectors().transpose() * L.solve(mu);
     q_ = eigen.eigenvectors().transpose() * L.solve(q);
@@ -153,10 +154,11 @@ std::optional<RatioCurve> LikelihoodOfRatio(const StatedPath& path, const Measur
   }
   const MatrixX unknown = kUnknown * length * UnknownEffects(prediction);
   const MatrixX of_biases = BiasEffects(motion, bias, prior, prediction.p_G_C);
-  const MatrixX predicted =
-      NoiseCovariance(motion, prediction, MeanGravity(prediction, motion, prior.gravity_norm)) +
-      of_biases * of_biases.transpose();
-  const Eigen::LLT<MatrixX> covariance(stated + unknown * unknown.transpose());
+  MatrixX predicted =
+      NoiseCovariance(motion, prediction, MeanGravity(prediction, motion, prior.gravity_norm));
+  predicted += of_biases * of_biases.transpose();
+  stated += unknown * unknown.transpose();
+  const Eigen::LLT<MatrixX> covariance(stated);
   if (covariance.info() != Eigen::Success) return std::nullopt;
   const Spectrum spectrum(predicted, covariance, prediction.p_G_C, q);
   const RatioCurve curve = spectrum.Curve();

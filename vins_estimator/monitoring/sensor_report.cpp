@@ -44,7 +44,8 @@ std::string DescribeFaults(const std::vector<CameraFaults>& cameras, const Depth
         &text);
   }
   if (const auto& delay = depth.delay) {
-    Add(Format("depth_topic: depth images are %.0f ms %s than their timestamps",
+    Add(Format("depth_topic: depth images are %.0f ms %s than their timestamps, or not aligned to "
+               "camera 0",
                1e3 * std::abs(*delay), *delay > 0 ? "older" : "newer"),
         &text);
   }

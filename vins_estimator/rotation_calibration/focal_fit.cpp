@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t kMinFocalPairs = 20, kMaxFocalPairs = 40;
 constexpr double kLeastTurn = 0.04;  // of a pair [rad]
-constexpr int kSteps = 16;           // of the focal length, to either side
+constexpr int kSteps = 22;           // of the focal length, to either side
 constexpr double kStep = 0.025;      // of its logarithm
 constexpr double kLeastError = 0.03;
 constexpr double kImproved = 0.6;   // cost relative to that as configured
@@ -81,6 +81,7 @@ std::optional<double> ErrorOfFocalLength(const std::vector<RotationPair>& pairs,
   }
   if (used < kMinFocalPairs) return std::nullopt;
   const auto best = std::min_element(costs.begin(), costs.end());
+  if (best == costs.begin() || best + 1 == costs.end()) return std::nullopt;
   const double error = std::exp(kStep * static_cast<double>(best - costs.begin() - kSteps)) - 1;
   const bool is_explained = *best < kExplained * static_cast<double>(used);
   const bool is_better = *best < kImproved * costs[kSteps];

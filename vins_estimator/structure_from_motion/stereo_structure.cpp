@@ -262,7 +262,7 @@ void Builder::TriangulateInAll() {
   }
 }
 
-// Of a point's inverse depth: across its rays, the cameras spread by so much.
+// Returns the deviation of a point's inverse depth, by the spread of the cameras across its rays.
 double Builder::DeviationByMotion(const std::vector<PosedPointObservation>& observations,
                                   const Eigen::Vector3d& p_G) const {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();

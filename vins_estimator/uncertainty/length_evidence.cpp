@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kDepthScale = 0, kDepthDelay = 1;  // indices in a depth stream
 constexpr double kMaxDeviation = 0.05;           // relative; evidence is ignored beyond it
-constexpr double kMinSignificance = 3.0;         // in standard deviations
+constexpr double kMinSignificance = 5.0;         // in standard deviations
 constexpr double kMinDelay = 0.005;              // [s]
 
 std::optional<LengthEvidence> IfSignificant(const std::optional<LengthEvidence>& evidence) {

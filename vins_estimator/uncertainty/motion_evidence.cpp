@@ -26,7 +26,7 @@ std::optional<Matrix15d> SolutionCovariance(int64_t begin_ns, int64_t end_ns,
                                              {BlockKind::kPose, end_ns},
                                              {BlockKind::kMotion, end_ns}});
   if (!states) return std::nullopt;
-  Eigen::Matrix<double, 15, 30> J;
+  Eigen::MatrixXd J(15, 30);
   J << jacobians.ByFirst(), jacobians.BySecond();
   return J * *states * J.transpose();
 }

@@ -112,18 +112,22 @@ TEST(LengthCheck, FindsRightLengthsRight) {
   }
 }
 
-TEST(LengthCheck, BelievesTheEstimatorBeyondFivePercentAndFiveDeviations) {
-  const SimulatedFlight flight = FlyInStereo(Motion::kGentle, 2);
+TEST(LengthCheck, BelievesTheEstimatorIfTheOdometryAgrees) {
+  SimulatedFlight flight = FlyInStereo(Motion::kGentle, 2);
+  ScaleBaseline(1.06, &flight.sensor);
+  const LengthCheck check = Check(flight).check;
+  ASSERT_FALSE(check.is_wrong());
   const auto is_wrong = [&](const LengthEvidence& log_ratio) {
-    LengthCheck check(flight.sensor, 0.5, StereoPair{0, 1});
-    check.Add(log_ratio);
-    EXPECT_EQ(check.is_wrong(), check.contradiction() > 5);
-    return check.is_wrong();
+    LengthCheck told = check;
+    told.Add(log_ratio);
+    EXPECT_EQ(told.is_wrong(), told.contradiction() > 5);
+    return told.is_wrong();
   };
-  EXPECT_TRUE(is_wrong({0.1, 0.018}));
-  EXPECT_TRUE(is_wrong({-0.1, 0.018}));
-  EXPECT_FALSE(is_wrong({0.1, 0.022}));
-  EXPECT_FALSE(is_wrong({0.045, 0.008}));
+  EXPECT_TRUE(is_wrong({0.058, 0.011}));
+  EXPECT_FALSE(is_wrong({0.058, 0.013})) << "uncertain";
+  EXPECT_FALSE(is_wrong({0.045, 0.008})) << "small";
+  EXPECT_FALSE(is_wrong({0.5, 0.05})) << "other";
+  EXPECT_FALSE(is_wrong({-0.06, 0.011})) << "other";
 }
 
 // A turned camera shifts all disparities.

@@ -24,7 +24,7 @@ TEST(SensorReport, NamesAllFaults) {
             "baseline is 1.0 +- 0.2 % shorter than configured; camera 2: it deviates by 7.0 px "
             "from its calibration and is not used; recalibrate it; depth_topic: according to the "
             "IMU, depths are 1.9 +- 0.4 % too long; depth_topic: depth images are "
-            "30 ms older than their timestamps");
+            "30 ms older than their timestamps, or not aligned to camera 0");
 }
 
 }  // namespace

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#pragma once
+#include "feature_tracker/ros/point_tracker_node.h"
 
 #include <plm_vins/FeatureTrackerConfig.h>
 
-#include <cstdint>
 #include <string>
 
-#include "common/config/config.h"
 #include "feature_tracker/point_tracking_stage.h"
+#include "tracking/ros/tracker_node.h"
 
 namespace plm_vins {
+namespace {
 
 // Traits of the point tracker for TrackerNode.
 struct PointNodeTraits {
@@ -36,5 +36,11 @@ struct PointNodeTraits {
     tracker->SetMaxCorners(settings.max_cnt);
   }
 };
+
+}  // namespace
+
+PointTrackerNode::PointTrackerNode(const Config& config, const ros::NodeHandle& node,
+                                   const ros::NodeHandle& private_node)
+    : node_(std::make_shared<TrackerNode<PointNodeTraits>>(config, node, private_node)) {}
 
 }  // namespace plm_vins

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#pragma once
+#include "linefeature_tracker/ros/line_tracker_node.h"
 
 #include <plm_vins/LineFeatureTrackerConfig.h>
 
-#include <cstdint>
 #include <string>
 
-#include "common/config/config.h"
 #include "common/ros/optional_node.h"
 #include "linefeature_tracker/line_tracking_stage.h"
 #include "tracking/ros/tracker_node.h"
 
 namespace plm_vins {
+namespace {
 
 // Traits of the line tracker for TrackerNode.
 struct LineNodeTraits {
@@ -44,6 +43,11 @@ struct LineSwitch {
   static bool IsOn(const Config& config) { return config.use_lines; }
 };
 
-using LineTrackerNode = OptionalNode<TrackerNode<LineNodeTraits>, LineSwitch>;
+}  // namespace
+
+LineTrackerNode::LineTrackerNode(const Config& config, const ros::NodeHandle& node,
+                                 const ros::NodeHandle& private_node)
+    : node_(std::make_shared<OptionalNode<TrackerNode<LineNodeTraits>, LineSwitch>>(
+          config, node, private_node)) {}
 
 }  // namespace plm_vins

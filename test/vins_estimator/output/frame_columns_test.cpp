@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/output/frame_table.h"
+#include "vins_estimator/output/frame_columns.h"
 
 #include <gtest/gtest.h>
 

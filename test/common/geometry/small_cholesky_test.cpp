@@ -10,7 +10,7 @@ namespace {
 
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 
-TEST(FactorizeCholesky, HasTheBitsOfEigensFactor) {
+TEST(FactorizeCholesky, IsEigensFactor) {
   for (int i = 0; i < 100; ++i) {
     const Matrix9d half = Matrix9d::Random();
     Matrix9d matrix = half * half.transpose();

@@ -29,6 +29,7 @@ constexpr double kLeastDisparity = 6;  // of points in two cameras, in standard 
 constexpr int kRefinements = 4;
 constexpr double kWrong = 5;            // standard deviations
 constexpr double kLargestError = 0.05;  // of a calibrated length, relative
+constexpr double kGross = 0.5;          // error of the logarithm that a single piece may prove
 constexpr int kContradictions = 2;
 constexpr double kAgree = 2;  // standard deviations by which two estimates of a ratio may differ
 // Deviation of the gyro's bias that is estimated from the images, times their duration [rad].
@@ -106,20 +107,26 @@ void LengthCheck::Add(const FrameMeasurement& measurement) {
   if (const auto curve = CurveOfPiece()) {
     RatioCurve all = earlier_;
     all.Add(*curve);
-    Judge(all);
+    Judge(all, *curve);
     if (is_complete) earlier_ = all;
+    is_first_piece_ &= !is_complete;
   }
   if (is_complete) piece_.erase(piece_.begin(), piece_.end() - 1);
 }
 
-void LengthCheck::Judge(const RatioCurve& curve) {
-  ratio_ = curve.Estimate(std::hypot(kAccelScaleDeviation, scale_deviation_));
-  const bool contradicts =
-      ratio_.contradiction > kWrong && std::abs(ratio_.log_ratio) > kLargestError;
-  contradictions_ = contradicts ? contradictions_ + 1 : 0;
-  is_wrong_ |= contradictions_ >= kContradictions;
+// One piece may be deceived, by the shocks of a take-off for instance, but hardly by a factor.
+void LengthCheck::Judge(const RatioCurve& all, const RatioCurve& piece) {
+  const double model_deviation = std::hypot(kAccelScaleDeviation, scale_deviation_);
+  ratio_ = all.Estimate(model_deviation);
+  const RatioEstimate newest = piece.Estimate(model_deviation);
+  const bool confirms =
+      !is_first_piece_ && newest.contradiction > kFits && newest.log_ratio * ratio_.log_ratio > 0;
+  const double error = std::abs(ratio_.log_ratio);
+  const bool contradicts = ratio_.contradiction > kWrong && error > kLargestError;
+  contradictions_ = contradicts && error > kGross ? contradictions_ + 1 : 0;
+  is_wrong_ |= (contradicts && confirms) || contradictions_ >= kContradictions;
   const bool fits = ratio_.contradiction < kFits || is_wrong_;
-  const bool is_settled = is_wrong_ || contradictions_ == 0;
+  const bool is_settled = is_wrong_ || !contradicts;
   is_known_ = is_settled && ratio_.deviation < (fits ? kKnown : kKnownBest);
 }
 

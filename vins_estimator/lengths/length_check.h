@@ -54,7 +54,7 @@ class LengthCheck {
   FrameMeasurement OfSource(const FrameMeasurement& measurement) const;
   bool ShortenRest();
   std::optional<RatioCurve> CurveOfPiece();
-  void Judge(const RatioCurve& curve);
+  void Judge(const RatioCurve& all, const RatioCurve& piece);
 
   const SensorConfig sensor_;
   const double noise_;  // of a normalized coordinate
@@ -66,7 +66,7 @@ class LengthCheck {
   double scale_deviation_ = 1;  // of the depths in the best piece
   double by_estimator_ = 0;     // contradiction that the estimator found
   int contradictions_ = 0;      // consecutive judgements that rule the length out
-  bool is_wrong_ = false, is_known_ = false;
+  bool is_first_piece_ = true, is_wrong_ = false, is_known_ = false;
 };
 
 }  // namespace plm_vins

@@ -13,8 +13,9 @@ namespace {
 
 constexpr int kDepthScale = 0, kDepthDelay = 1;  // indices in a depth stream
 constexpr double kMaxDeviation = 0.05;           // relative; evidence is ignored beyond it
-constexpr double kMinSignificance = 3.0;         // in standard deviations
-constexpr double kMinDelay = 0.005;              // [s]
+constexpr double kMinSignificance = 5.0;         // of an error of a length, in standard deviations
+constexpr double kMinDelaySigmas = 3.0;
+constexpr double kMinDelay = 0.005;  // [s]
 
 std::optional<LengthEvidence> IfSignificant(const std::optional<LengthEvidence>& evidence) {
   return evidence && IsSignificant(*evidence) ? evidence : std::nullopt;
@@ -62,7 +63,7 @@ DepthFaults FaultsOfDepths(const SlidingWindow& window, NormalEquations* equatio
   faults.scale = IfSignificant(
       WithoutPrior(scale, covariance(kDepthScale, kDepthScale), kDepthScaleDeviation));
   const double deviation = std::sqrt(covariance(kDepthDelay, kDepthDelay));
-  if (std::abs(delay) > std::max(kMinDelay, kMinSignificance * deviation)) faults.delay = delay;
+  if (std::abs(delay) > std::max(kMinDelay, kMinDelaySigmas * deviation)) faults.delay = delay;
   return faults;
 }
 

@@ -28,9 +28,9 @@ TEST(LengthEvidence, DoesNotExistWhereThePriorAloneDecides) {
   EXPECT_FALSE(WithoutPrior(0, kPrior * kPrior, kPrior));
 }
 
-TEST(LengthEvidence, IsSignificantBeyondThreeStandardDeviations) {
-  EXPECT_FALSE(IsSignificant({0.0089, 0.003}));
-  EXPECT_TRUE(IsSignificant({-0.0091, 0.003}));
+TEST(LengthEvidence, IsSignificantBeyondFiveStandardDeviations) {
+  EXPECT_FALSE(IsSignificant({0.0149, 0.003}));
+  EXPECT_TRUE(IsSignificant({-0.0151, 0.003}));
 }
 
 }  // namespace

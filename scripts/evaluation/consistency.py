@@ -22,6 +22,8 @@ def read_covariances(path, stamps):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # files without rows are reported below
             table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+    except StopIteration:  # of NumPy 1.19, if there is no line
+        table = np.empty((0, 0))
     except (OSError, ValueError) as error:
         raise TrajectoryError(f"{path}: {error}") from None
     if table.shape[1] != _COLUMNS or len(table) < 2:

@@ -27,13 +27,13 @@ using testing::SpinUntil;
 
 constexpr double kPatience = 20;  // [s]
 
-// Blocks the thread that logs a text with these words.
+// Blocks the thread that logs a text with these words. Lives as long as the process, since
+// rosconsole 1.14 crashes when an appender is removed.
 class BusyLog : public ros::console::LogAppender {
  public:
   explicit BusyLog(std::string words) : words_(std::move(words)) {
     ros::console::register_appender(this);
   }
-  ~BusyLog() override { ros::console::deregister_appender(this); }
 
   void log(ros::console::Level, const char* text, const char*, const char*, int) override {
     if (std::string(text).find(words_) == std::string::npos) return;
@@ -87,7 +87,7 @@ TEST(EstimatorInput, NeverBlocksADriverInItsProcess) {
   const ros::NodeHandle private_node("vins_estimator");
   Driver driver;
   EstimatorLog status;
-  BusyLog log("imu_not_finite");
+  BusyLog& log = *new BusyLog("imu_not_finite");
   const EstimatorNode estimator(LoadNodeConfig(private_node), ros::NodeHandle(), private_node);
   ASSERT_TRUE(SpinUntil(kPatience, [&] { return driver.IsConnected(); }));
   driver.Publish(20, std::numeric_limits<double>::quiet_NaN());

@@ -16,7 +16,7 @@ namespace {
 
 using Cause = RotationFit::Cause;
 
-constexpr size_t kMinPairs = 40;
+constexpr size_t kMinPairs = 70;       // in doubt, ten per second
 constexpr double kMinMeanTurn = 0.03;  // root mean square of the rotations [rad]
 constexpr double kMinExplained = 0.2;  // share of the squared differences
 constexpr double kAgreement = 0.005;   // root mean square of the differences [rad]

@@ -63,7 +63,7 @@ row() { echo "| $1 | $2 |"; }
 print_table() {
   # shellcheck disable=SC1091
   row system "$(source /etc/os-release && echo "$PRETTY_NAME"), $arch"
-  row tools "$(versions cmake 'g++-[0-9]*' python3 qemu-user-static)"
+  row tools "g++ $(g++ -dumpfullversion), $(versions cmake python3 qemu-user-static)"
   row libraries "$(versions libboost-dev libceres-dev libeigen3-dev libopencv-dev libroscpp-dev \
     libyaml-cpp-dev nlohmann-json3-dev)"
   row "flight of 8 s" "$(awk '/^APE \[m\]/ {print $3 " m rms"}' "$1")"

@@ -52,7 +52,8 @@ VALUES = {"num_of_cam": None, "image_topic": None, "imu_topic": None, "depth_top
           "model_type": None, "image_width": None, "image_height": None,
           "imu_noise_model": "vins", "fisheye_mask": None, "depth_max": 2.5, "td": 0.004,
           "estimate_extrinsic": 1, "g_norm": 9.8, "window_size": 8, "rolling_shutter_tr": 0.015,
-          "line_outlier_distance": 0.5, "line_merge_image_distance": 0.5}
+          "line_merge_distance": 0.5, "line_outlier_distance": 0.5,
+          "line_merge_image_distance": 0.5}
 KEY = re.compile(r"^( *)(\w+):(?: +(\S+))? *(?:#(.*))?$")
 
 

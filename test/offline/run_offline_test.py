@@ -182,7 +182,7 @@ class RunOffline(unittest.TestCase):
                    "--set", f"pose_graph_save_path={folder}"]
         self.assert_refuses(f"warning: load_previous_pose_graph: there is no map {folder}",
                             *options)
-        self.assert_refuses("none was usable", *options)
+        self.assert_refuses("images: images_unreadable: 1", *options)
         folder.mkdir(parents=True)
         (folder / "pose_graph.plm").write_text("damaged", encoding="utf-8")
         self.assert_refuses("is not a map of plm_vins", *options)
@@ -197,7 +197,8 @@ class RunOffline(unittest.TestCase):
                             CONFIG)
 
     def test_a_map_in_a_result_folder_that_is_not_there_yet(self):
-        self.assert_refuses("none was usable", "--map-out", self.folder / "new" / "map.plm",
+        self.assert_refuses("images: images_unreadable: 1",
+                            "--map-out", self.folder / "new" / "map.plm",
                             output="new")
         self.assertFalse((self.folder / "new" / "map.plm").exists())
 
@@ -214,7 +215,8 @@ class RunOffline(unittest.TestCase):
         config.write_text(CONFIG.read_text(encoding="utf-8"), encoding="utf-8")
         for name in ["evaluation.json", "run.html", "loops.csv"]:
             (results / name).write_text("of before", encoding="utf-8")
-        self.assert_refuses("none was usable", "--set", "estimate_intrinsics=0", config=config)
+        self.assert_refuses("images: images_unreadable: 1",
+                            "--set", "estimate_intrinsics=0", config=config)
         self.assertTrue(config.is_file())
         self.assertFalse((results / "evaluation.json").exists())
 
@@ -232,7 +234,7 @@ class RunOffline(unittest.TestCase):
         self.assert_refuses("images_unreadable: 1 (first: ")
         self.assert_refuses(f"from {self.asl / 'cam0' / 'data.csv'}\n")
         self.assert_refuses("no trajectory from 1 images")
-        self.assert_refuses("none was usable, see the warnings")
+        self.assert_refuses("no trajectory from 1 images: images_unreadable: 1")
         self.assert_refuses("none between --start and --duration", "--start", "40")
 
 

@@ -193,9 +193,9 @@ TEST(EstimatorStereo, KnowsNoDepthAtRestIfTheSecondCameraDeliversNothing) {
   EXPECT_EQ(ImagesWithKnownDepth(flight, options.trajectory.rest), 0);
 }
 
-// Depths that are 4 % too long, and 30 ms late.
+// Depths that are 6 % too long, and 30 ms late.
 TEST(EstimatorStereo, ReportsScaleAndDelayOfMeasuredDepths) {
-  constexpr double kScale = 1.04, kDelay = 0.03;
+  constexpr double kScale = 1.06, kDelay = 0.03;
   auto options = GentleFlight(1);
   options.sensors.imu_noise.accel_density = 0.01;
   options.sensors.depth.emplace();
@@ -210,7 +210,7 @@ TEST(EstimatorStereo, ReportsScaleAndDelayOfMeasuredDepths) {
   }
   const DepthFaults faults = testing::Estimate(flight).outputs.back().depth;
   ASSERT_TRUE(faults.scale && faults.delay);
-  EXPECT_NEAR(faults.scale->error, 0.04, 0.01);
+  EXPECT_NEAR(faults.scale->error, 0.06, 0.015);
   EXPECT_NEAR(*faults.delay, kDelay, 0.005);
 }
 

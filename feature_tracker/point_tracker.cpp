@@ -29,9 +29,6 @@ namespace {
 // tracking many corners.
 constexpr double kRefillShare = 0.2;
 
-// A parallax is extrapolated well over an interval of less than this times that of its own.
-constexpr float kMaxExtrapolation = 2.0F;
-
 Eigen::Vector2d ToEigen(const cv::Point2f& point) { return {point.x, point.y}; }
 cv::Point2f ToOpenCv(const Eigen::Vector2d& point) {
   return {static_cast<float>(point.x()), static_cast<float>(point.y())};
@@ -178,31 +175,23 @@ class PointTracker::Implementation {
               std::vector<PointTrack>* followed) {
     std::vector<PointTrack>& tracks = *followed;
     if (tracks.empty()) return;
-    std::vector<FlowStart> starts;
-    std::vector<cv::Point2f> turned;
+    std::vector<cv::Point2f> points, turned, predicted;
     const auto dt_ratio = static_cast<float>(from.previous_dt > 0 ? from.dt / from.previous_dt : 0);
-    const bool is_steady = from.R_now_then && dt_ratio > 0 && dt_ratio < kMaxExtrapolation;
     for (const PointTrack& track : tracks) {
+      points.push_back(track.uv_px);
       turned.push_back(from.R_now_then ? Turn(track, *from.R_now_then) : track.uv_px);
-      starts.push_back({track.uv_px, turned.back() + dt_ratio * track.parallax_px,
-                        is_steady && track.length > 1});
+      predicted.push_back(turned.back() + dt_ratio * track.parallax_px);
     }
-    const auto found = flow_.Track(from.pyramid, pyramid, starts);
+    const std::vector<FlowResult> flow = flow_.Track(from.pyramid, pyramid, points, predicted);
 
     std::vector<RayPair> pairs;
     std::vector<bool> keep(tracks.size(), false);
     for (size_t i = 0; i < tracks.size(); ++i) {
-      if (!found[i]) {
-        ++statistics_.flow_lost;
-        continue;
-      }
+      if (flow[i].status == FlowResult::Status::kInconsistent) ++statistics_.forward_backward;
+      if (flow[i].status == FlowResult::Status::kLost) ++statistics_.flow_lost;
+      if (flow[i].status != FlowResult::Status::kTracked) continue;
       const Eigen::Vector2d xy_then = tracks[i].xy;
-      const cv::Point2f aligned = Align(gray, *found[i], &tracks[i]);
-      // A patch that fits confirms the flow.
-      if (!tracks[i].patch && !flow_.LeadsBack(from.pyramid, pyramid, starts[i].point, *found[i])) {
-        ++statistics_.forward_backward;
-        continue;
-      }
+      const cv::Point2f aligned = Align(gray, flow[i].position, &tracks[i]);
       keep[i] = Advance(aligned, turned[i], from.dt, &tracks[i]);
       if (!keep[i]) {
         ++statistics_.flow_lost;

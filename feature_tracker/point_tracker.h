@@ -26,8 +26,8 @@ struct PointTrackerStatistics {
 };
 
 // Facade of the point front end. Tracks corners from image to image and adds new ones: CLAHE -> KLT
-// with prediction -> alignment with the patch of the corner's detection, or a forward-backward
-// check where it does not fit -> epipolar RANSAC -> spacing -> detection.
+// with prediction -> forward-backward check -> alignment with the patch of the corner's detection
+// -> epipolar RANSAC -> spacing -> detection.
 class PointTracker {
  public:
   using Features = PointFrame;

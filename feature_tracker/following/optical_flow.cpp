@@ -14,7 +14,6 @@ namespace {
 constexpr int kMaxIterations = 30;
 constexpr double kConverged_px = 0.03;
 constexpr float kStandstill_px = 0.01F;  // a step that reverts the previous one oscillates
-constexpr int kCloseLevels = 1;          // coarsest level with a close prediction
 constexpr int kBackwardLevels = 0;  // coarsest level of the backward search, whose end is known
 
 bool IsInside(const cv::Mat& image, const cv::Point2f& point) {
@@ -66,25 +65,21 @@ OpticalFlow::Pyramid OpticalFlow::BuildPyramid(const cv::Mat& image, Pyramid unu
   return unused;
 }
 
-std::vector<std::optional<cv::Point2f>> OpticalFlow::Track(
-    const Pyramid& previous, const Pyramid& current, const std::vector<FlowStart>& starts) const {
+std::vector<FlowResult> OpticalFlow::Track(const Pyramid& previous, const Pyramid& current,
+                                           const std::vector<cv::Point2f>& points,
+                                           const std::vector<cv::Point2f>& predicted) const {
   FlowWindow window(config_.klt_window);
-  std::vector<std::optional<cv::Point2f>> found;
-  found.reserve(starts.size());
-  for (const FlowStart& start : starts) {
-    const int levels =
-        start.is_close ? std::min(kCloseLevels, config_.klt_levels) : config_.klt_levels;
-    found.push_back(Search(previous, current, levels, start.point, start.predicted, &window));
-    if (found.back() && !IsInside(current.front(), *found.back())) found.back().reset();
+  std::vector<FlowResult> results(points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    const auto there =
+        Search(previous, current, config_.klt_levels, points[i], predicted[i], &window);
+    if (!there || !IsInside(current.front(), *there)) continue;
+    const auto back = Search(current, previous, kBackwardLevels, *there, points[i], &window);
+    const bool consistent = back && cv::norm(*back - points[i]) <= config_.forward_backward;
+    results[i] = {*there,
+                  consistent ? FlowResult::Status::kTracked : FlowResult::Status::kInconsistent};
   }
-  return found;
-}
-
-bool OpticalFlow::LeadsBack(const Pyramid& previous, const Pyramid& current,
-                            const cv::Point2f& point, const cv::Point2f& found) const {
-  FlowWindow window(config_.klt_window);
-  const auto back = Search(current, previous, kBackwardLevels, found, point, &window);
-  return back && cv::norm(*back - point) <= config_.forward_backward;
+  return results;
 }
 
 }  // namespace plm_vins

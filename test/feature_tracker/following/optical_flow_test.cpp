@@ -23,27 +23,19 @@ Eigen::Quaterniond Turn(double about_axis) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(about_axis, Eigen::Vector3d::UnitZ()));
 }
 
-using Found = std::vector<std::optional<cv::Point2f>>;
-
 class OpticalFlowTest : public testing::Test {
  protected:
-  Found Track(const cv::Mat& image0, const cv::Mat& image1,
-              const std::vector<cv::Point2f>& predicted) const {
-    return flow_.Track(flow_.BuildPyramid(image0), flow_.BuildPyramid(image1), Starts(predicted));
-  }
-
-  std::vector<FlowStart> Starts(const std::vector<cv::Point2f>& predicted) const {
-    std::vector<FlowStart> starts;
-    for (size_t i = 0; i < points_.size(); ++i) starts.push_back({points_[i], predicted[i], false});
-    return starts;
+  std::vector<FlowResult> Track(const cv::Mat& image0, const cv::Mat& image1,
+                                const std::vector<cv::Point2f>& predicted) const {
+    return flow_.Track(flow_.BuildPyramid(image0), flow_.BuildPyramid(image1), points_, predicted);
   }
 
   // Returns the sorted errors of the tracked points.
-  std::vector<double> Errors(const Found& results, const cv::Matx33d& H) const {
+  std::vector<double> Errors(const std::vector<FlowResult>& results, const cv::Matx33d& H) const {
     std::vector<double> errors;
     for (size_t i = 0; i < results.size(); ++i) {
-      if (!results[i]) continue;
-      errors.push_back(cv::norm(Move(H, points_[i]) - cv::Point2d(*results[i])));
+      if (results[i].status != FlowResult::Status::kTracked) continue;
+      errors.push_back(cv::norm(Move(H, points_[i]) - cv::Point2d(results[i].position)));
     }
     std::sort(errors.begin(), errors.end());
     return errors;
@@ -72,12 +64,12 @@ TEST_F(OpticalFlowTest, AgreesWithOpenCv) {
   std::vector<uint8_t> found;
   cv::calcOpticalFlowPyrLK(image0, image1, points_, theirs, found, cv::noArray(),
                            {config.klt_window, config.klt_window}, config.klt_levels, criteria);
-  const Found ours = Track(image0, image1, points_);
+  const std::vector<FlowResult> ours = Track(image0, image1, points_);
   int agreeing = 0, tracked = 0;
   for (size_t i = 0; i < points_.size(); ++i) {
-    if (!ours[i] || found[i] == 0) continue;
+    if (ours[i].status != FlowResult::Status::kTracked || found[i] == 0) continue;
     ++tracked;
-    if (cv::norm(*ours[i] - theirs[i]) < 0.02) ++agreeing;
+    if (cv::norm(ours[i].position - theirs[i]) < 0.02) ++agreeing;
   }
   EXPECT_GT(tracked, static_cast<int>(0.9 * static_cast<double>(points_.size())));
   EXPECT_GT(agreeing, 0.98 * tracked);
@@ -96,20 +88,6 @@ TEST_F(OpticalFlowTest, PredictionReachesFartherThanThePyramid) {
   EXPECT_LT(static_cast<double>(good_without), 0.1 * static_cast<double>(points_.size()));
 }
 
-TEST_F(OpticalFlowTest, ACloseStartNeedsNoCoarseLevels) {
-  const auto from = flow_.BuildPyramid(scene_.View());
-  const auto count_found = [&](float motion) {
-    const cv::Matx33d H = Translation(motion, 0);
-    std::vector<FlowStart> starts = Starts(points_);
-    for (FlowStart& start : starts) start.is_close = true;
-    const auto errors = Errors(flow_.Track(from, flow_.BuildPyramid(scene_.View(H)), starts), H);
-    const auto good = std::count_if(errors.begin(), errors.end(), [](double e) { return e < 0.3; });
-    return static_cast<double>(good) / static_cast<double>(points_.size());
-  };
-  EXPECT_GT(count_found(5), 0.97);
-  EXPECT_LT(count_found(40), 0.3);
-}
-
 TEST_F(OpticalFlowTest, LosesPointsThatLeaveTheImage) {
   const cv::Matx33d H = Translation(kWidth - 80, 0);
   std::vector<cv::Point2f> predicted;
@@ -117,41 +95,37 @@ TEST_F(OpticalFlowTest, LosesPointsThatLeaveTheImage) {
   const auto results = Track(scene_.View(), scene_.View(H), predicted);
   for (size_t i = 0; i < results.size(); ++i) {
     if (predicted[i].x <= kWidth + 1) continue;
-    EXPECT_FALSE(results[i]);
+    EXPECT_NE(results[i].status, FlowResult::Status::kTracked);
   }
 }
 
-TEST_F(OpticalFlowTest, LeadsBackOnlyFromTheSamePoint) {
-  const auto from = flow_.BuildPyramid(scene_.View());
-  const auto count = [&](const cv::Mat& image) {
-    const auto to = flow_.BuildPyramid(image);
-    const Found found = flow_.Track(from, to, Starts(points_));
-    int leading_back = 0;
-    for (size_t i = 0; i < found.size(); ++i) {
-      leading_back += found[i] && flow_.LeadsBack(from, to, points_[i], *found[i]) ? 1 : 0;
-    }
-    return leading_back / static_cast<double>(points_.size());
-  };
-  EXPECT_GT(count(scene_.View(Translation(5.3, -3.7))), 0.99);
-  EXPECT_LT(count(TexturedScene(99).View()), 0.2);
+TEST_F(OpticalFlowTest, DoesNotTrackToADifferentScene) {
+  const auto results = Track(scene_.View(), TexturedScene(99).View(), points_);
+  const auto tracked = std::count_if(results.begin(), results.end(), [](const FlowResult& result) {
+    return result.status == FlowResult::Status::kTracked;
+  });
+  const auto inconsistent = std::count_if(results.begin(), results.end(), [](const FlowResult& r) {
+    return r.status == FlowResult::Status::kInconsistent;
+  });
+  EXPECT_LT(static_cast<double>(tracked), 0.2 * static_cast<double>(points_.size()));
+  EXPECT_GT(static_cast<double>(inconsistent), 0.3 * static_cast<double>(points_.size()));
 }
 
 TEST_F(OpticalFlowTest, LosesEverythingInBlankImages) {
   for (const int gray : {0, 255}) {
     const cv::Mat blank(kHeight, kWidth, CV_8UC1, cv::Scalar(gray));
-    for (const auto& found : Track(blank, scene_.View(), points_)) EXPECT_FALSE(found);
-    const Found found = Track(scene_.View(), blank, points_);
-    const auto from = flow_.BuildPyramid(scene_.View()), to = flow_.BuildPyramid(blank);
-    for (size_t i = 0; i < found.size(); ++i) {
-      if (!found[i]) continue;
-      EXPECT_FALSE(flow_.LeadsBack(from, to, points_[i], *found[i]));
+    for (const FlowResult& result : Track(blank, scene_.View(), points_)) {
+      EXPECT_EQ(result.status, FlowResult::Status::kLost);
+    }
+    for (const FlowResult& result : Track(scene_.View(), blank, points_)) {
+      EXPECT_NE(result.status, FlowResult::Status::kTracked);
     }
   }
 }
 
 TEST_F(OpticalFlowTest, TakesNoPoints) {
   const auto pyramid = flow_.BuildPyramid(scene_.View());
-  EXPECT_TRUE(flow_.Track(pyramid, pyramid, {}).empty());
+  EXPECT_TRUE(flow_.Track(pyramid, pyramid, {}, {}).empty());
 }
 
 }  // namespace

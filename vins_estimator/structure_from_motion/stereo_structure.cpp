@@ -142,7 +142,7 @@ std::optional<Eigen::Vector3d> Builder::PointOf(const Track& track, int view) co
     observations.push_back({T_G_C, o.xy});
   }
   if (observations.size() < 2) return std::nullopt;
-  const auto p_G = TriangulatePoint(observations, options_.min_angle);
+  auto p_G = TriangulatePoint(observations, options_.min_angle);
   if (!p_G) return std::nullopt;
   const auto& [T_G_C, xy] = observations.front();
   const Eigen::Vector2d error = (T_G_C.Inverse() * *p_G).hnormalized() - xy;

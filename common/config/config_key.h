@@ -65,6 +65,7 @@ struct ConfigKey {
   static ConfigKey Choice(const std::string& name,
                           const std::vector<std::pair<std::string, T>>& choices, T* field) {
     std::vector<std::string> words;
+    words.reserve(choices.size());
     for (const auto& choice : choices) words.push_back(choice.first);
     const auto set = [=](size_t i) { *field = choices[i].second; };
     const auto is = [=](size_t i) { return *field == choices[i].second; };

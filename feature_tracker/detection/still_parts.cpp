@@ -138,7 +138,10 @@ const StillParts::Past* StillParts::FindReference() const {
 
 // Returns whether the rotation moves the cell at a pixel.
 bool StillParts::Turns(const Eigen::Quaterniond& R_now_then, const cv::Point& pixel) const {
-  const auto center_of = [](int x) { return (x / kCell_px + 0.5) * kCell_px; };
+  const auto center_of = [](int x) {
+    const int cell = x / kCell_px;
+    return (cell + 0.5) * kCell_px;
+  };
   const Eigen::Vector2d center(center_of(pixel.x), center_of(pixel.y));
   const auto ray = camera_->Unproject(center);
   const auto moved = ray ? camera_->Project(R_now_then * ray->homogeneous()) : std::nullopt;

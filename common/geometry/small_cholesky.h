@@ -26,4 +26,12 @@ bool FactorizeCholesky(Eigen::Matrix<double, kSize, kSize>* matrix) {
   return true;
 }
 
+// Returns (L L^T)^-1 X. Only the lower triangle of L is read.
+template <int kSize, typename Matrix>
+Matrix SolveByCholesky(const Eigen::Matrix<double, kSize, kSize>& L, Matrix X) {
+  L.template triangularView<Eigen::Lower>().solveInPlace(X);
+  L.transpose().template triangularView<Eigen::Upper>().solveInPlace(X);
+  return X;
+}
+
 }  // namespace plm_vins

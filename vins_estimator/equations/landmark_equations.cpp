@@ -35,14 +35,6 @@ void SolveRows(const Eigen::Matrix<double, kSize, kSize>& L, Eigen::Index column
   }
 }
 
-template <int kSize>
-LandmarkVector Solve(const LandmarkMatrix& H_ll, double damping, LandmarkVector x) {
-  const auto L = DampedFactor<kSize>(H_ll, damping);
-  L.template triangularView<Eigen::Lower>().solveInPlace(x);
-  L.transpose().template triangularView<Eigen::Upper>().solveInPlace(x);
-  return x;
-}
-
 // Eliminates one landmark of kSize parameters. `memory` is workspace for its H_ld.
 template <int kSize>
 void Eliminate(const LandmarkEquations& equations, double damping, double* memory,
@@ -92,8 +84,10 @@ LandmarkVector SolveLandmark(const LandmarkEquations& equations, const Eigen::Ve
     right.noalias() -=
         equations.H_ld.middleCols(run.local, run.size) * dense_step.segment(run.dense, run.size);
   }
-  if (right.size() == kPointSize) return Solve<kPointSize>(equations.H_ll, damping, right);
-  return Solve<kLineTangentSize>(equations.H_ll, damping, right);
+  if (right.size() == kPointSize) {
+    return SolveByCholesky(DampedFactor<kPointSize>(equations.H_ll, damping), right);
+  }
+  return SolveByCholesky(DampedFactor<kLineTangentSize>(equations.H_ll, damping), right);
 }
 
 }  // namespace plm_vins

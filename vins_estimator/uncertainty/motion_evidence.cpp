@@ -31,14 +31,6 @@ std::optional<Matrix15d> SolutionCovariance(int64_t begin_ns, int64_t end_ns,
   return J * *states * J.transpose();
 }
 
-// Returns (L L^T)^-1 x; L is in the lower triangle.
-template <typename Matrix>
-Matrix Solve(const Matrix15d& L, Matrix x) {
-  L.triangularView<Eigen::Lower>().solveInPlace(x);
-  L.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
-  return x;
-}
-
 }  // namespace
 
 std::optional<ImuNoiseEvidence> EvidenceOfMotion(const Preintegration& motion,
@@ -51,8 +43,9 @@ std::optional<ImuNoiseEvidence> EvidenceOfMotion(const Preintegration& motion,
   if (!known) return std::nullopt;
   Matrix15d L = motion.Covariance();
   FactorizeCholesky(&L);
-  const Vector15d weighted = Solve(L, residual);
-  const Matrix15d P = Solve(L, Matrix15d(Matrix15d::Identity() - Solve(L, *known).transpose()));
+  const Vector15d weighted = SolveByCholesky(L, residual);
+  const Matrix15d rest = Matrix15d::Identity() - SolveByCholesky(L, *known).transpose();
+  const Matrix15d P = SolveByCholesky(L, rest);
   const auto evidence = [&](double density, const ImuNoise& source) {
     const Matrix15d S_k = CovarianceFrom(source, motion);
     const Matrix15d P_S_k = P * S_k;

@@ -58,12 +58,12 @@ void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odome
 }
 
 void MapBundle::ForgetRemoved(const KeyframeMap& map) {
-  const std::vector<int> kept = map.graph.Kept();
   for (auto next = keyframes_.begin(); next != keyframes_.end();) {
-    if (std::binary_search(kept.begin(), kept.end(), next->first)) {
+    if (map.graph.Has(next->first)) {
       ++next;
       continue;
     }
+    ForgetObservationsBy(next->first);
     next = keyframes_.erase(next);
     if (next == keyframes_.begin() || next == keyframes_.end()) continue;
     const BundleKeyframe &from = std::prev(next)->second, &to = next->second;
@@ -71,12 +71,16 @@ void MapBundle::ForgetRemoved(const KeyframeMap& map) {
       imu_.Forget(from.recording, from.state.t_ns, to.state.t_ns);
     }
   }
-  for (auto& [keyframes, place] : places_) {
-    const auto is_useless = [&](const Reobservation& again) {
-      return !std::binary_search(kept.begin(), kept.end(), again.observation.keyframe);
-    };
-    std::vector<Reobservation>& observations = place.observations;
-    observations.erase(std::remove_if(observations.begin(), observations.end(), is_useless),
+}
+
+// The observations of a place are by its two keyframes, so places of earlier visits have none.
+void MapBundle::ForgetObservationsBy(int keyframe) {
+  const auto is_by_it = [&](const Reobservation& again) {
+    return again.observation.keyframe == keyframe;
+  };
+  for (auto place = places_.lower_bound({keyframe, 0}); place != places_.end(); ++place) {
+    std::vector<Reobservation>& observations = place->second.observations;
+    observations.erase(std::remove_if(observations.begin(), observations.end(), is_by_it),
                        observations.end());
     observations.shrink_to_fit();
   }

@@ -79,6 +79,7 @@ class MapBundle {
 
   // Drops what only keyframes that the map has removed need.
   void ForgetRemoved(const KeyframeMap& map);
+  void ForgetObservationsBy(int keyframe);
   void AddPlace(const KeyframeMap& map, const RecognizedPlace& place, bool counts);
   void SetCounts(int a, int b, bool counts);
   size_t CountPlaces() const;

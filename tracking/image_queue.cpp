@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "common/camera/image_format.h"
-#include "common/format.h"
 #include "tracking/images/image_check.h"
 
 namespace plm_vins {

@@ -191,12 +191,11 @@ Json LoopResults::Summary() const {
 }
 
 std::string LoopResults::Line() const {
-  std::string line = Format("loops: %.0f closed of %.0f candidates",
-                            static_cast<double>(tally_.accepted - tally_.dropped),
-                            static_cast<double>(tally_.candidates));
+  const std::string line = "loops: " + std::to_string(tally_.accepted - tally_.dropped) +
+                           " closed of " + std::to_string(tally_.candidates) + " candidates";
   if (loaded_keyframes_ == 0 || !first_fix_) return line;
-  return line + Format("; the loaded map was recognized after %.1f s, %.0f times in all",
-                       *first_fix_, static_cast<double>(recognitions_));
+  return line + Format("; the loaded map was recognized after %.1f s, ", *first_fix_) +
+         std::to_string(recognitions_) + " times in all";
 }
 
 std::string LoopResults::Finding() const {

@@ -269,8 +269,9 @@ double Builder::DeviationByMotion(const std::vector<PosedPointObservation>& obse
   for (const auto& o : observations) mean += o.T_W_C.translation / observations.size();
   const Eigen::Vector3d ray = (p_G - mean).normalized();
   double spread = 0;
-  for (const auto& o : observations)
+  for (const auto& o : observations) {
     spread += (o.T_W_C.translation - mean).cross(ray).squaredNorm();
+  }
   return options_.noise / std::sqrt(spread);
 }
 
@@ -296,8 +297,9 @@ std::vector<DepthPair> Builder::DepthsInSingleViews() const {
       if (o.depth) depth.deviation = kDepthDeviation * depth.expected;
       depths.push_back(depth);
     }
-    for (size_t k = before; k < depths.size(); ++k)
+    for (size_t k = before; k < depths.size(); ++k) {
       depths[k].share = 1.0 / (depths.size() - before);
+    }
   }
   return depths;
 }

@@ -191,8 +191,8 @@ Json LoopResults::Summary() const {
 }
 
 std::string LoopResults::Line() const {
-  const std::string line = "loops: " + std::to_string(tally_.accepted - tally_.dropped) +
-                           " closed of " + std::to_string(tally_.candidates) + " candidates";
+  std::string line = "loops: " + std::to_string(tally_.accepted - tally_.dropped) + " closed of " +
+                     std::to_string(tally_.candidates) + " candidates";
   if (loaded_keyframes_ == 0 || !first_fix_) return line;
   return line + Format("; the loaded map was recognized after %.1f s, ", *first_fix_) +
          std::to_string(recognitions_) + " times in all";

@@ -123,7 +123,8 @@ ConfigKey ConfigKey::Text(const std::string& name, std::string* field) {
 }
 
 ConfigKey ConfigKey::OneOf(const std::string& name, const std::vector<std::string>& words,
-                           std::function<void(size_t)> set, std::function<bool(size_t)> is) {
+                           const std::function<void(size_t)>& set,
+                           const std::function<bool(size_t)>& is) {
   ConfigKey key;
   key.name = name;
   for (const std::string& word : words) key.allowed += (key.allowed.empty() ? "" : ", ") + word;
@@ -143,8 +144,8 @@ ConfigKey ConfigKey::OneOf(const std::string& name, const std::vector<std::strin
   return key;
 }
 
-ConfigKey ConfigKey::Matrix(const std::string& name, std::function<Eigen::MatrixXd()> get,
-                            std::function<Problem(const Eigen::MatrixXd&)> set) {
+ConfigKey ConfigKey::Matrix(const std::string& name, const std::function<Eigen::MatrixXd()>& get,
+                            const std::function<Problem(const Eigen::MatrixXd&)>& set) {
   ConfigKey key;
   key.name = name;
   key.read = [=](const YAML::Node& value) {

@@ -73,13 +73,14 @@ struct ConfigKey {
   }
 
   // An OpenCV matrix of the size that `get` returns; `set` may reject it.
-  static ConfigKey Matrix(const std::string& name, std::function<Eigen::MatrixXd()> get,
-                          std::function<Problem(const Eigen::MatrixXd&)> set);
+  static ConfigKey Matrix(const std::string& name, const std::function<Eigen::MatrixXd()>& get,
+                          const std::function<Problem(const Eigen::MatrixXd&)>& set);
 
  private:
   // A choice among words by number: `set` stores one, `is` compares the field with one.
   static ConfigKey OneOf(const std::string& name, const std::vector<std::string>& words,
-                         std::function<void(size_t)> set, std::function<bool(size_t)> is);
+                         const std::function<void(size_t)>& set,
+                         const std::function<bool(size_t)>& is);
 };
 
 using ConfigKeys = std::vector<ConfigKey>;

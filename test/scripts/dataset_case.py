@@ -62,14 +62,14 @@ class DatasetTest(FolderTest):
             return []
 
     def hanging_run(self):
-        """Waits until a run hangs; returns its process id and that of its parent."""
+        """Waits until a run hangs; returns its process id."""
         deadline = time.monotonic() + 120
         while time.monotonic() < deadline:
             for path in glob.glob(os.path.join(self.output, "runs", "*", "*", "*", "pid")):
                 with open(path, encoding="utf-8") as file:
                     text = file.read()
                 if text.endswith("\n"):
-                    return [int(word) for word in text.split()]
+                    return int(text)
             time.sleep(0.02)
         self.fail("no run hangs")
         return None
@@ -78,6 +78,6 @@ class DatasetTest(FolderTest):
         with open(os.path.join(self.output, "report.md"), encoding="utf-8") as file:
             return file.read()
 
-    def rows(self, name="runs.csv"):
-        with open(os.path.join(self.output, name), encoding="utf-8") as file:
+    def rows(self):
+        with open(os.path.join(self.output, "runs.csv"), encoding="utf-8") as file:
             return list(csv.DictReader(file))

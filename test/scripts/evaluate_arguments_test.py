@@ -7,9 +7,9 @@ import io
 import os
 import unittest
 
-from known_flight import flight  # first: it names the folder
+from known_flight import flight, format_tum  # first: it names the folder
 from evaluate import main, parse_arguments
-from evaluation.trajectory import TRUTH_IN_FOLDER, TrajectoryError, format_tum, read_truth
+from evaluation.trajectory import TRUTH_IN_FOLDER, TrajectoryError, read_truth
 from refusal_case import RefusalTest
 
 

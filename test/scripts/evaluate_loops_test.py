@@ -11,11 +11,13 @@ import unittest
 
 import numpy as np
 
+from known_flight import format_tum
+
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.path.insert(0, str(SCRIPTS))
 from evaluate_loops import evaluate_loops  # noqa: E402
 from evaluation.loops import Loops, closed_share, loop_errors, revisits  # noqa: E402
-from evaluation.trajectory import RESTART, Trajectory, format_tum  # noqa: E402
+from evaluation.trajectory import RESTART, Trajectory  # noqa: E402
 
 START = 1403636580.0  # [s], as large as real timestamps
 ROUND = 20.0  # [s]

@@ -8,9 +8,9 @@ import unittest
 
 import numpy as np
 
-from known_flight import START, flight, moved, rotation  # first: it names the folder
+from known_flight import START, flight, format_tum, moved, rotation  # first: it names the folder
 from evaluate import main
-from evaluation.trajectory import format_tum, read_trajectory
+from evaluation.trajectory import read_trajectory
 from refusal_case import RefusalTest
 
 

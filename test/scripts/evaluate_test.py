@@ -2,21 +2,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of scripts/evaluate.py on cases with known results."""
 
+import contextlib
 import io
 import json
 import os
-import subprocess
-import sys
 import tempfile
 import unittest
-import zipfile
+from types import SimpleNamespace
 
 import numpy as np
 
-from known_flight import SCRIPTS, START, flight, moved, rotation  # first: it names the folder
-from evaluate import error_statistics, evaluate, format_report, parse_arguments
-from evaluation import evo_backend, metrics
-from evaluation.trajectory import Trajectory, TrajectoryError, format_tum, read_trajectory
+from known_flight import START, flight, format_tum, moved, rotation  # first: it names the folder
+from evaluate import evaluate, format_report, main, parse_arguments
+from evaluation import metrics
+from evaluation.trajectory import Trajectory, TrajectoryError, read_trajectory
 from folder_case import FolderTest
 
 
@@ -232,9 +231,10 @@ class CommandLine(FolderTest):
         return text
 
     def run_script(self, *arguments):
-        command = [sys.executable, "-B", os.path.join(SCRIPTS, "evaluate.py"), *arguments]
-        return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              encoding="utf-8", check=False)
+        stdout, stderr = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
+            code = main(arguments)
+        return SimpleNamespace(returncode=code, stdout=stdout.getvalue(), stderr=stderr.getvalue())
 
     def assert_fails(self, message, *arguments):
         result = self.run_script(*arguments)
@@ -278,55 +278,6 @@ class CommandLine(FolderTest):
         estimate = self.write("estimate.tum", self.spiral(" "))
         truth = self.write("data.csv", "\ufeff" + self.spiral(",", stamp_unit=1e9))
         self.assertIn("100 pairs", self.run_script(estimate, truth).stdout)
-
-    def evo_zip(self, *options):
-        """Returns the parts of a result file of an estimate with alternating errors of 0.3 m."""
-        estimate = self.write("estimate.tum", "".join(
-            line if i % 2 else line.replace(" 0.", " 0.3", 1)
-            for i, line in enumerate(self.spiral(" ").splitlines(keepends=True))))
-        truth = self.write("truth.tum", self.spiral(" "))
-        path = self.path("points.zip")
-        result = self.run_script(estimate, truth, "--evo-zip", path, "--json",
-                                 self.path("figures.json"), *options)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        with zipfile.ZipFile(path) as archive:
-            parts = {name: archive.read(name) for name in archive.namelist()}
-        return path, parts
-
-    def test_evo_zip_has_what_evo_res_reads(self):
-        _, parts = self.evo_zip()
-        info, stats = json.loads(parts["info.json"]), json.loads(parts["stats.json"])
-        self.assertEqual((info["est_name"], info["ref_name"]), ("points", "reference"))
-        self.assertEqual(info["title"], "APE w.r.t. translation part (m)\n"
-                                        "(with SE(3) Umeyama alignment)")
-        with open(self.path("figures.json"), encoding="utf-8") as file:
-            figures = json.load(file)["ape_m"]
-        arrays = {name[:-4]: np.load(io.BytesIO(data)) for name, data in parts.items()
-                  if name.endswith(".npz")}
-        self.assertGreater(figures["rmse"], 0.01)
-        for name in ("rmse", "mean", "median", "std", "min", "max"):
-            self.assertAlmostEqual(stats[name], figures[name], 12)
-        self.assertAlmostEqual(stats["sse"], 100 * stats["rmse"] ** 2, 9)
-        self.assertAlmostEqual(arrays["error_array"].max(), stats["max"], 12)
-        self.assertAlmostEqual(arrays["timestamps"][99], 1403636584.95, 6)
-        self.assertAlmostEqual(arrays["seconds_from_start"][99], 4.95, 6)
-        self.assertAlmostEqual(arrays["distances_from_start"][99], 99 * np.hypot(
-            2 * np.sin(0.05), 0.01), 6)
-        poses = read_trajectory(self.write("poses.tum", parts["points.tum"].decode()))
-        truth = read_trajectory(self.write("poses.tum", parts["reference.tum"].decode()))
-        np.testing.assert_allclose(metrics.position_errors(poses, truth), arrays["error_array"],
-                                   atol=1e-8)
-
-    def test_evo_zip_tells_the_alignment(self):
-        self.assertIn("not aligned", json.loads(self.evo_zip("--align", "none")[1]["info.json"])[
-            "title"])
-
-    @unittest.skipUnless(evo_backend.is_available(), "evo is not installed")
-    def test_evo_reads_the_zip(self):
-        from evo.tools import file_interface
-        result = file_interface.load_res_file(self.evo_zip()[0], load_trajectories=True)
-        self.assertEqual(len(result.np_arrays["error_array"]), 100)
-        self.assertEqual(result.trajectories["points"].num_poses, 100)
 
     def test_time_offset(self):
         truth = self.write("truth.tum", self.spiral(" "))
@@ -384,19 +335,6 @@ class CommandLine(FolderTest):
             path = self.write("bad.tum", text + "\n")
             self.assert_fails(message, path, good)
             self.assert_fails(path, path, good)
-
-
-class Evo(unittest.TestCase):
-    @unittest.skipUnless(evo_backend.is_available(), "evo is not installed")
-    def test_same_numbers_as_numpy(self):
-        truth, generator = flight(rate=200.0), np.random.default_rng(1)
-        estimate = flight(rate=20.0)
-        estimate = moved(estimate, np.cumsum(generator.normal(0, 0.01, (len(estimate), 3)), axis=0))
-        estimate, truth, result = evaluate(estimate, truth)
-        self.assertEqual(result["computed_by"], "evo")
-        for name, figures in error_statistics(estimate, truth).items():
-            for key, value in (figures or {}).items():
-                self.assertAlmostEqual(value, result[name][key], 7, name)
 
 
 if __name__ == "__main__":

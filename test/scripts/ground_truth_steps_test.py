@@ -9,10 +9,10 @@ import unittest
 
 import numpy as np
 
-from known_flight import START, flight, moved  # first: it names the folder
+from known_flight import START, flight, format_tum, moved  # first: it names the folder
 from evaluate import evaluate, format_report, main
 from evaluation import steps
-from evaluation.trajectory import TrajectoryError, format_tum
+from evaluation.trajectory import TrajectoryError
 from folder_case import FolderTest
 
 

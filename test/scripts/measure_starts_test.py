@@ -9,8 +9,7 @@ import unittest
 
 import numpy as np
 
-from known_flight import START, flight, moved  # first: it names the folder
-from evaluation.trajectory import format_tum
+from known_flight import START, flight, format_tum, moved  # first: it names the folder
 from folder_case import FolderTest
 from measure_starts import main
 

@@ -8,10 +8,10 @@ import unittest
 
 import numpy as np
 
-from known_flight import flight, moved  # first: it names the folder
+from known_flight import flight, format_tum, moved  # first: it names the folder
 from evaluate import main
 from evaluation import metrics
-from evaluation.trajectory import Trajectory, format_tum
+from evaluation.trajectory import Trajectory
 from folder_case import FolderTest
 
 

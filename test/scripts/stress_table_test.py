@@ -8,8 +8,8 @@ import json
 import os
 import unittest
 
-from known_flight import START, flight, moved  # first: it names the folder
-from evaluation.trajectory import RESTART, format_tum
+from known_flight import START, flight, format_tum, moved  # first: it names the folder
+from evaluation.trajectory import RESTART
 from folder_case import FolderTest
 from stress.feature_file import (IMU, IMU_LAYOUT, POINT_STATISTICS_SIZE, POINTS, SIGNATURE, SIZE,
                                  TRACKING)

@@ -11,11 +11,11 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from known_flight import START, flight  # first: it names the folder
+from known_flight import START, flight, format_tum  # first: it names the folder
 from dataset.results import Evaluator
 from evaluate import main
 from evaluation.run_results import check_whole, read_estimate, time_offset
-from evaluation.trajectory import TrajectoryError, format_tum
+from evaluation.trajectory import TrajectoryError
 from folder_case import FolderTest
 from stress.damage import assess
 
@@ -98,7 +98,7 @@ class Dataset(TimeOffset):
 
     def figures(self, duration=None):
         evaluator = Evaluator([self.run_.sequence], duration)
-        return evaluator.compare(self.run_, {"init_time_s": 1.0})[2]
+        return evaluator.compare(self.run_, {"init_time_s": 1.0})
 
     def test_is_that_of_the_run(self):
         figures = self.figures()

@@ -117,7 +117,8 @@ class Failures(DatasetTest):
         self.add("d_loses", "lose")
         result = self.call("--variants", "improved", exit_code=1)
         self.assertIn("3 of 4 runs failed", result.stderr)
-        self.assertIn("b_fails improved from_0.0s: FAILED: no trajectory from 400 images", result.stderr)
+        self.assertIn("b_fails improved from_0.0s: FAILED: no trajectory from 400 images",
+                      result.stderr)
         statuses = {row["sequence"]: row["status"] for row in self.rows()}
         self.assertEqual(statuses["a_good"], "compared")
         self.assertEqual(statuses["b_fails"],

@@ -2,13 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of scripts/evaluate.py on cases with known results."""
 
-import contextlib
-import io
 import json
 import os
 import tempfile
 import unittest
-from types import SimpleNamespace
 
 import numpy as np
 
@@ -16,7 +13,7 @@ from known_flight import START, flight, format_tum, moved, rotation  # first: it
 from evaluate import evaluate, format_report, main, parse_arguments
 from evaluation import metrics
 from evaluation.trajectory import Trajectory, TrajectoryError, read_trajectory
-from folder_case import FolderTest
+from folder_case import FolderTest, call
 
 
 class AbsoluteError(unittest.TestCase):
@@ -230,24 +227,12 @@ class CommandLine(FolderTest):
             text += separator.join([stamp] + [f"{v:.12f}" for v in numbers + extra]) + "\n"
         return text
 
-    def run_script(self, *arguments):
-        stdout, stderr = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
-            code = main(arguments)
-        return SimpleNamespace(returncode=code, stdout=stdout.getvalue(), stderr=stderr.getvalue())
-
-    def assert_fails(self, message, *arguments):
-        result = self.run_script(*arguments)
-        self.assertEqual(result.returncode, 1)
-        self.assertIn(message, result.stderr)
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-
     def test_tum_against_euroc_csv_with_plots_and_json(self):
         estimate = self.write("estimate.tum", self.spiral(" "))
         truth = self.write("data.csv", self.spiral(",", stamp_unit=1e9))
         report = self.path("report.json")
         plots = self.path("plots")
-        result = self.run_script(estimate, truth, "--json", report, "--plots", plots)
+        result = call(main, estimate, truth, "--json", report, "--plots", plots)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("coverage 100.0 %", result.stdout)
         with open(report, encoding="utf-8") as file:
@@ -265,8 +250,8 @@ class CommandLine(FolderTest):
         # A world without poses does not count.
         for comment_at, worlds in ((len(rows), 1), (50, 2), (30, 3), (30, 3), (0, 3)):
             rows.insert(comment_at, "# the world frame starts anew: lost\n")
-            result = self.run_script(self.write("estimate.tum", "".join(rows)), truth,
-                                     "--t-offset", "0.001", "--json", report)
+            result = call(main, self.write("estimate.tum", "".join(rows)), truth,
+                          "--t-offset", "0.001", "--json", report)
             self.assertEqual("unconnected world frames" in result.stdout, worlds > 1)
             if worlds > 1:
                 self.assertIn(f"{worlds} unconnected world frames: APE and yaw",
@@ -277,13 +262,13 @@ class CommandLine(FolderTest):
     def test_ground_truth_with_a_byte_order_mark(self):
         estimate = self.write("estimate.tum", self.spiral(" "))
         truth = self.write("data.csv", "\ufeff" + self.spiral(",", stamp_unit=1e9))
-        self.assertIn("100 pairs", self.run_script(estimate, truth).stdout)
+        self.assertIn("100 pairs", call(main, estimate, truth).stdout)
 
     def test_time_offset(self):
         truth = self.write("truth.tum", self.spiral(" "))
         late = self.write("late.tum", self.spiral(" ").replace("14036365", "14036366"))
-        self.assert_fails("no overlap", late, truth)
-        self.assertEqual(self.run_script(late, truth, "--t-offset", "-100").returncode, 0)
+        self.assert_refused(main, "no overlap", late, truth)
+        self.assertEqual(call(main, late, truth, "--t-offset", "-100").returncode, 0)
 
     def unit_covariance(self, estimate):
         unit = ",".join("1" if i in (0, 6, 11, 15, 18, 20) else "0" for i in range(21))
@@ -296,8 +281,8 @@ class CommandLine(FolderTest):
         covariance = self.unit_covariance(estimate)
         report = self.path("report.json")
         for offset in ("0", "0.005"):
-            result = self.run_script(estimate, estimate, "--covariance", covariance, "--t-offset",
-                                     offset, "--nees-after", "4", "--json", report)
+            result = call(main, estimate, estimate, "--covariance", covariance, "--t-offset",
+                          offset, "--nees-after", "4", "--json", report)
             self.assertEqual(result.returncode, 0, result.stderr)
             with open(report, encoding="utf-8") as file:
                 self.assertLess(json.load(file)["position_nees"], 1e-6)
@@ -305,8 +290,8 @@ class CommandLine(FolderTest):
     def test_a_run_too_short_for_its_covariance_loses_no_figures(self):
         estimate = self.write("estimate.tum", self.spiral(" "))
         report = self.path("report.json")
-        result = self.run_script(estimate, estimate, "--covariance",
-                                 self.unit_covariance(estimate), "--json", report)
+        result = call(main, estimate, estimate, "--covariance",
+                      self.unit_covariance(estimate), "--json", report)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stderr, "no pose 10 s after the first.*--nees-after")
         self.assertIn("APE [m]", result.stdout)
@@ -330,11 +315,11 @@ class CommandLine(FolderTest):
             "does not increase": row + "1\n" + row + "1",
             "at least 3": row + "1",
         }
-        self.assert_fails("no such file", self.path("missing.tum"), good)
+        self.assert_refused(main, "no such file", self.path("missing.tum"), good)
         for message, text in bad.items():
             path = self.write("bad.tum", text + "\n")
-            self.assert_fails(message, path, good)
-            self.assert_fails(path, path, good)
+            self.assert_refused(main, message, path, good)
+            self.assert_refused(main, path, path, good)
 
 
 if __name__ == "__main__":

@@ -8,8 +8,8 @@ import signal
 import subprocess
 import unittest
 
-from dataset_case import DatasetTest
-from fake_run_offline import flight, write_tum
+from dataset_case import DatasetTest, flight
+from fake_run_offline import write_tum
 
 
 class Results(DatasetTest):

@@ -15,7 +15,9 @@ import unittest
 import matplotlib.image
 import numpy as np
 
-from fake_run_offline import flight, write_tum
+from dataset_case import flight
+from fake_run_offline import write_tum
+from folder_case import call
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
 sys.path.insert(0, SCRIPTS)
@@ -23,6 +25,7 @@ from evaluation.trajectory import TrajectoryError  # noqa: E402
 from pages import run_figures  # noqa: E402
 from pages.html import as_json, page  # noqa: E402
 from pages.run_folder import RunFolder  # noqa: E402
+from show_run import main  # noqa: E402
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))),
                 None)
@@ -99,9 +102,7 @@ class ShowRun(unittest.TestCase):
         make_run(self.run_folder)
 
     def call(self, *options):
-        command = [sys.executable, "-B", os.path.join(SCRIPTS, "show_run.py"), self.run_folder]
-        return subprocess.run([*command, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              encoding="utf-8", check=False)
+        return call(main, self.run_folder, *options)
 
     @staticmethod
     def write(path, text):

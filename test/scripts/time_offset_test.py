@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares trajectories of runs with a camera time offset with ground truth on the IMU's clock."""
 
-import contextlib
-import io
 import json
 import os
 import unittest
@@ -16,7 +14,7 @@ from dataset.results import Evaluator
 from evaluate import main
 from evaluation.run_results import check_whole, read_estimate, time_offset
 from evaluation.trajectory import TrajectoryError
-from folder_case import FolderTest
+from folder_case import FolderTest, call
 from stress.damage import assess
 
 TD = 0.03  # [s]
@@ -40,11 +38,11 @@ class TimeOffset(FolderTest):
 
     def evaluate(self, *options):
         """Returns the printed text and all figures."""
-        output, report = io.StringIO(), self.path("figures.json")
-        with contextlib.redirect_stdout(output):
-            self.assertEqual(main([self.estimate, self.truth, "--json", report, *options]), 0)
+        report = self.path("figures.json")
+        result = call(main, self.estimate, self.truth, "--json", report, *options)
+        self.assertEqual(result.returncode, 0)
         with open(report, encoding="utf-8") as file:
-            return output.getvalue(), json.load(file)
+            return result.stdout, json.load(file)
 
 
 class OneTrajectory(TimeOffset):

@@ -11,8 +11,7 @@ import sys
 
 import numpy as np
 
-from evaluation import consistency, evo_backend, metrics, mistakes, steps
-from evaluation.evo_zip import write_evo_zip
+from evaluation import consistency, metrics, mistakes, steps
 from evaluation.run_results import read_estimate
 from evaluation.side_by_side import side_by_side
 from evaluation.trajectory import TrajectoryError, read_truth
@@ -56,10 +55,8 @@ def evaluate(estimate, truth, align="se3", max_diff=metrics.MAX_DIFFERENCE,
         "local_scale": local_scale(paired_estimate, paired_truth),
         "without_steps": bool(truth.steps_left_out),
         "ground_truth_steps": [dataclasses.asdict(step) for step in _steps(truth, paired_truth)],
-        "computed_by": "numpy",
     }
     result.update(error_statistics(paired_estimate, paired_truth))
-    _replace_by_evo(result, paired_estimate, paired_truth)
     return paired_estimate, paired_truth, result
 
 
@@ -100,16 +97,6 @@ def add_consistency(result, estimate, truth, options):
               file=sys.stderr)
 
 
-def _replace_by_evo(result, estimate, truth):
-    if truth.steps_left_out or not evo_backend.is_available():  # evo knows no pieces
-        return
-    try:
-        result.update(evo_backend.evo_statistics(estimate, truth))
-        result["computed_by"] = "evo"
-    except Exception as error:  # evo's own exceptions change between versions
-        print(f"evaluate.py: evo failed ({error}), figures are from numpy", file=sys.stderr)
-
-
 def format_report(result):
     """Returns the figures as a text table, coverage next to the APE."""
     lines = [
@@ -117,7 +104,7 @@ def format_report(result):
         f" {result['ground_truth_path_m']:.2f} m in {result['ground_truth_duration_s']:.1f} s",
         f"estimate      {result['poses']} poses, path {result['estimate_path_m']:.2f} m, first pose"
         f" {result['first_pose_delay_s']:.2f} s after the ground truth begins",
-        f"{result['pairs']} pairs, alignment {result['alignment']}, by {result['computed_by']};"
+        f"{result['pairs']} pairs, alignment {result['alignment']};"
         " RPE over 1 m of the estimate's path (evo_rpe -d 1 -u m) and over 1 s",
         f"{'':20}" + "".join(f"{name:>9}" for name in FIGURES),
     ]
@@ -167,8 +154,6 @@ def parse_arguments(arguments):
     parser.add_argument("ground_truth", help="TUM file, EuRoC csv (.../data.csv) or ASL folder")
     parser.add_argument("--plots", metavar="DIR", help="write PNG figures there")
     parser.add_argument("--json", metavar="FILE", help="write all figures there")
-    parser.add_argument("--evo-zip", metavar="FILE",
-                        help="write the APE there, for evo_res, which names it as the file")
     parser.add_argument("--align", choices=metrics.ALIGNMENTS, default="se3",
                         help="alignment without scale before the errors are taken (default: se3)")
     parser.add_argument("--max-diff", type=_seconds, default=metrics.MAX_DIFFERENCE, metavar="S",
@@ -227,8 +212,6 @@ def main(arguments=None):
         if options.json:
             with open(options.json, "w", encoding="utf-8") as file:
                 json.dump(result, file, indent=2)
-        if options.evo_zip:
-            write_evo_zip(options.evo_zip, paired_estimate, paired_truth, options.align)
         if options.plots:
             from evaluation import plots  # matplotlib is needed for plots only
             print(*plots.write_plots(options.plots, paired_estimate, paired_truth), sep="\n")

@@ -24,7 +24,7 @@ from evaluation.trajectory import read_trajectory  # noqa: E402
 
 SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
 SECONDS = 8
-LAST_ROW = 40  # of camera 2, before it stops or freezes
+LAST_ROW = 20  # of camera 2, before it stops or freezes
 MS = 1_000_000  # [ns]
 
 

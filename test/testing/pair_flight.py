@@ -45,9 +45,11 @@ def write_config(folder, sensor):
 
 
 def simulate(program, config, sensor, seconds, *outputs):
-    """Runs the program `simulate`; OUTPUTS are its options for them."""
+    """Runs the program `simulate`, with ten images per second, since rendering takes most of the
+    time of a test; OUTPUTS are its options for them."""
     sensors = ["--config" if sensor == "depth" else "--rig", config]
     if sensor != "stereo":
         sensors.append("--depth")
-    command = [program, *sensors, "--exposure", 0, "--duration", seconds, *outputs]
+    command = [program, *sensors, "--frame-rate", 10, "--exposure", 0, "--duration", seconds,
+               *outputs]
     subprocess.run([str(word) for word in command], stderr=subprocess.DEVNULL, check=True)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the odometry over many recordings, in several variants, and compares the results.
 
-Writes to the output folder: report.md, runs.csv, and runs/ with the results of every run. The same
-command again executes only missing runs; Ctrl-C stops it.
+Writes to the output folder: report.md, runs.csv, ape.png, and runs/ with the results of every run.
+The same command again executes only missing runs; Ctrl-C stops it.
 """
 
 import argparse
@@ -18,6 +18,7 @@ import sys
 from dataset.environment import (check_config, find_config, find_program, machine,
                                  usable_cores)
 from dataset.errors import DatasetError
+from dataset.plot import write_plot
 from dataset.report import markdown_report, metric_table, write_csv
 from dataset.results import METRIC, Evaluator, Results
 from dataset.run import Run, Settings, run_all
@@ -44,6 +45,9 @@ def parse_arguments(arguments):
     parser.add_argument("--starts", type=_seconds, nargs="+", metavar="S", default=[0.0],
                         help="run each sequence and variant from each of these [s after the first"
                         " image]: the tables have means and spreads over them")
+    parser.add_argument("--repetitions", type=_positive, default=1, metavar="N",
+                        help="repeat each run (default: 1; trajectories repeat exactly, times do"
+                        " not)")
     parser.add_argument("--duration", type=_seconds, metavar="S", help="process this much [s]")
     parser.add_argument("--without-steps", action="store_true",
                         help="exclude the times around steps of the ground truth, as evaluate.py"
@@ -93,8 +97,8 @@ def plan(options):
     settings = Settings(find_program(options.run_offline), find_config(options.config),
                         os.path.abspath(options.output), options.duration, dict(options.set))
     fingerprint = settings.fingerprint()
-    runs = [Run(settings, fingerprint, sequence, variant, VARIANTS[variant], start)
-            for start in options.starts
+    runs = [Run(settings, fingerprint, sequence, variant, VARIANTS[variant], start, repetition)
+            for repetition in range(1, options.repetitions + 1) for start in options.starts
             for sequence in sequences for variant in select_variants(options.variants)]
     return settings, fingerprint, sequences, runs
 
@@ -165,11 +169,11 @@ def carry_out(runs, jobs, evaluator):
 
 
 def write_comparison(folder, results, about):
-    """Writes the report and the table of runs; returns their paths."""
+    """Writes the report, the table of runs and the plot; returns their paths."""
     report = os.path.join(folder, "report.md")
     with open(report, "w", encoding="utf-8") as file:
         file.write(markdown_report(results, about))
-    return report, write_csv(folder, results)
+    return report, write_csv(folder, results), write_plot(folder, results)
 
 
 def run_dataset(options):

@@ -38,7 +38,7 @@ def metric_table(results, metric):
         return f"### {metric.title}\n\nNo run has this figure."
     table = Table(["sequence"] + results.variants, rows)
     means, common = results.means(metric)
-    cases = len(results.sequences) * len(results.starts)
+    cases = results.runs_per_variant
     if cases > 1 and common:
         label = "**mean**" + (f" of the {common} that all variants have" if common < cases else "")
         table.rows.append([label] + [metric.text(means.get(v)) for v in results.variants])
@@ -66,9 +66,10 @@ def _ape_notes(results):
     note = ("Poses as estimated at their time, no loop closure. APE after SE3 alignment without"
             " scale, with the coverage in brackets: the share of the ground truth's time that has a"
             " pose (a late start flatters the APE).")
-    if len(results.starts) > 1:
+    runs = results.runs_per_variant // len(results.sequences)
+    if runs > 1:
         note += (" Figures are mean ± standard deviation [minimum, maximum] over those of"
-                 f" {len(results.starts)} starts that have them.")
+                 f" {runs} runs that have them.")
     return note + _step_notes(results) + _shift_notes(results)
 
 
@@ -118,11 +119,11 @@ def write_csv(folder, results):
     path = os.path.join(folder, "runs.csv")
     with open(path, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["sequence", "variant", "start_s", "status", *METRIC])
+        writer.writerow(["sequence", "variant", "start_s", "repetition", "status", *METRIC])
         for result in results.all():
             run, status = result.run, result.failure or result.not_compared or "compared"
-            writer.writerow([run.sequence.name, run.variant, f"{run.start:g}", status,
-                             *(_plain(metric.value(result)) for metric in METRICS)])
+            writer.writerow([run.sequence.name, run.variant, f"{run.start:g}", run.repetition,
+                             status, *(_plain(metric.value(result)) for metric in METRICS)])
     return path
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of runs, with means and spread over starts."""
+"""The figures of runs, with means and spread over starts and repetitions."""
 
 import json
 import os
@@ -87,14 +87,14 @@ class Results:
             self._cells.setdefault(key, []).append(result)
         self.sequences = list(dict.fromkeys(sequence for sequence, _ in self._cells))
         self.variants = list(dict.fromkeys(variant for _, variant in self._cells))
-        self.starts = sorted({result.run.start for result in self.all()})
-        self.whole = self.starts == [0.0] and duration is None
+        self.runs_per_variant = len(self.all()) // len(self.variants)
+        self.whole = duration is None and not any(result.run.start for result in self.all())
 
     def all(self):
         return [result for cell in self._cells.values() for result in cell]
 
     def cell(self, metric, sequence, variant):
-        """Returns the mean over starts with standard deviation and range, the number of starts that
+        """Returns the mean over runs with standard deviation and range, the number of runs that
         have the figure, failures, and for the APE the coverage."""
         runs = self._cells.get((sequence, variant), [])
         failed = sum(r.failure is not None for r in runs)
@@ -111,7 +111,7 @@ class Results:
             coverage = self._values(METRIC["coverage_percent"], sequence, variant)
             text += f" ({statistics.mean(coverage):.0f} %)"
         if len(runs) > 1:
-            text += f" over {len(values)} start" + "s" * (len(values) > 1)
+            text += f" over {len(values)} run" + "s" * (len(values) > 1)
         return text + (f", {failed} of {len(runs)} failed" if failed else "")
 
     def means(self, metric):
@@ -121,7 +121,7 @@ class Results:
         for result in self.all():
             value = metric.value(result)
             if value is not None:
-                case = result.run.sequence.name, result.run.start
+                case = result.run.sequence.name, result.run.start, result.run.repetition
                 by_variant.setdefault(result.run.variant, {})[case] = value
         if not by_variant:
             return {}, 0

@@ -41,18 +41,20 @@ class Settings:
 
 
 class Run:
-    """A sequence with a variant of the configuration, from a start [s] on.
+    """One repetition of a sequence with a variant of the configuration, from a start [s] on.
 
-    The folder OUTPUT/runs/SEQUENCE/VARIANT/from_STARTs contains the files of run_offline, its
-    messages (run.log) and its outcome (run.json). A run in progress writes to a folder next to it.
+    The folder OUTPUT/runs/SEQUENCE/VARIANT/from_STARTs_REPETITION contains the files of
+    run_offline, its messages (run.log) and its outcome (run.json). A run in progress writes to a
+    folder next to it.
     """
 
     def __init__(self, settings, fingerprint, sequence: Sequence, variant: str,
-                 overrides: Dict[str, str], start: float):
+                 overrides: Dict[str, str], start: float, repetition: int):
         self.sequence = sequence
         self.variant = variant
         self.start = start
-        labels = sequence.name, variant, f"from_{start}s"
+        self.repetition = repetition
+        labels = sequence.name, variant, f"from_{start}s_{repetition}"
         self.name = " ".join(labels)
         self.folder = os.path.join(settings.output, "runs", *labels)
         self._settings = settings

@@ -1,6 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Converts the intrinsics of a Kalibr camera to lines of a configuration."""
 
+import math
+
+import numpy as np
+
+from . import radial_models
+
+MAX_RESIDUAL = 0.05  # of an equidistant model that replaces another one [px]
 DISTORTION_SIZES = {"radtan": 4, "plumb_bob": 4, "equidistant": 4, "none": 0}
 MODEL_TYPES = {("pinhole", "radtan"): "PINHOLE", ("pinhole", "plumb_bob"): "PINHOLE",
                ("pinhole", "none"): "PINHOLE", ("pinhole", "equidistant"): "EQUIDISTANT",
@@ -8,6 +15,15 @@ MODEL_TYPES = {("pinhole", "radtan"): "PINHOLE", ("pinhole", "plumb_bob"): "PINH
 # Names of the projection and the distortion parameters.
 NAMES = {"PINHOLE": ("fx fy cx cy", "k1 k2 p1 p2"), "EQUIDISTANT": ("fx fy cx cy", "k1 k2 k3 k4"),
          "MEI": ("gamma1 gamma2 u0 v0", "k1 k2 p1 p2")}
+# Models that are replaced: their parameters in Kalibr's order, each with minimum and maximum, and
+# the key of the list that contains them ("intrinsics" ends with the focal lengths and the principal
+# point).
+RADIAL_MODELS = {
+    ("ds", "none"): (radial_models.ds, {"xi": (-1, math.inf), "alpha": (0, 1)}, "intrinsics"),
+    ("eucm", "none"): (radial_models.eucm, {"alpha": (0, 1), "beta": (1e-6, math.inf)},
+                       "intrinsics"),
+    ("pinhole", "fov"): (radial_models.fov, {"w": (1e-6, 3.14)}, "distortion_coeffs"),
+}
 
 
 def camera_lines(camera):
@@ -15,6 +31,8 @@ def camera_lines(camera):
     _refuse_rolling_shutter(camera)
     kind = camera.text("camera_model"), camera.text("distortion_model")
     size = camera.numbers("resolution", 2)
+    if kind in RADIAL_MODELS:
+        return _equidistant_lines(camera, kind, size)
     if kind not in MODEL_TYPES:
         raise camera.error("camera_model", f"{'-'.join(kind)} is not supported; calibrate with"
                            " pinhole-radtan, pinhole-equi or omni-radtan")
@@ -56,3 +74,36 @@ def _lines(model_type, size, mirror, projection, coefficients):
 
 def _named(names, values):
     return [f"   {name}: {value!r}" for name, value in zip(names.split(), values)]
+
+
+def _equidistant_lines(camera, kind, size):
+    """Returns the equidistant camera that best fits one of RADIAL_MODELS, with its largest
+    residual."""
+    lens, projection = _radial_lens(camera, kind)
+    focal, center = np.array(projection[:2]), np.array(projection[2:])
+    farthest = np.maximum(center, np.array(size) - 1 - center)
+    fit = radial_models.fit_equidistant(lens, np.linalg.norm(farthest / focal))
+    residual = math.inf if fit is None else fit.residual * focal.max()
+    name = kind[0] if kind[1] == "none" else "-".join(kind)
+    if residual > MAX_RESIDUAL:
+        raise camera.error("camera_model", f"the equidistant model nearest to this {name} camera is"
+                           f" off by up to {residual:.2g} px, of which {MAX_RESIDUAL:g} are"
+                           " allowed; calibrate with pinhole-equi or omni-radtan")
+    note = (f"# Equidistant model that replaces {name}: errors of at most {residual:.2g} px up to"
+            f" {math.degrees(fit.angle):.1f} deg from the axis.")
+    return [note, *_lines("EQUIDISTANT", size, [], [*(fit.scale * focal).tolist(), *projection[2:]],
+                          fit.coefficients)]
+
+
+def _radial_lens(camera, kind):
+    """Returns the lens as a function of the angle, and fx, fy, cx, cy of the camera [px]."""
+    function, limits, key = RADIAL_MODELS[kind]
+    own_list = key != "intrinsics"
+    intrinsics = camera.numbers("intrinsics", 4 if own_list else 4 + len(limits))
+    values = camera.numbers(key, len(limits)) if own_list else intrinsics[:-4]
+    for value, (name, (least, greatest)) in zip(values, limits.items()):
+        if not least <= value <= greatest:
+            raise camera.error(key, f"{name} must be from {least:g} to {greatest:g}, not {value!r}")
+    if min(intrinsics[-4:-2]) <= 0:
+        raise camera.error("intrinsics", "focal lengths must be positive")
+    return lambda theta: function(theta, *values), intrinsics[-4:]

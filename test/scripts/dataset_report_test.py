@@ -18,7 +18,8 @@ APE = METRIC["ape_m"]
 
 
 def result(sequence, variant, ape=None, failure=None, start=0.0):
-    run = SimpleNamespace(sequence=SimpleNamespace(name=sequence), variant=variant, start=start)
+    run = SimpleNamespace(sequence=SimpleNamespace(name=sequence), variant=variant, start=start,
+                          repetition=1)
     if failure:
         return RunResult(run, failure=failure)
     evaluation = None if ape is None else {"ape_m": {"rmse": ape}, "coverage": 0.975,
@@ -39,7 +40,7 @@ class Figures(unittest.TestCase):
         results = Results([result("hall", "points", ape, start=start)
                            for start, ape in enumerate((0.1, 0.2, 0.6))])
         self.assertEqual(results.cell(APE, "hall", "points"),
-                         "0.3000 ± 0.2646 [0.1000, 0.6000] (98 %) over 3 starts")
+                         "0.3000 ± 0.2646 [0.1000, 0.6000] (98 %) over 3 runs")
 
     def test_starts_without_trajectory_are_counted(self):
         results = Results([result("hall", "points", 0.1),
@@ -47,7 +48,7 @@ class Figures(unittest.TestCase):
                            result("hall", "lines", failure="lost"),
                            result("hall", "lines", start=1.0, failure="lost")])
         self.assertEqual(results.cell(APE, "hall", "points"),
-                         "0.1000 [0.1000, 0.1000] (98 %) over 1 start, 1 of 2 failed")
+                         "0.1000 [0.1000, 0.1000] (98 %) over 1 run, 1 of 2 failed")
         self.assertEqual(results.cell(APE, "hall", "lines"), FAILED)
 
     def test_without_ground_truth_there_is_no_figure(self):
@@ -112,7 +113,7 @@ class Report(unittest.TestCase):
         text = markdown_report(Results([result("hall", variant, ape, start=start)
                                         for variant, ape in (("points", 0.2), ("lines", 0.1))
                                         for start in (0.0, 1.0)]), [])
-        self.assertIn("over those of 2 starts that have them", text)
+        self.assertIn("over those of 2 runs that have them", text)
         self.assertEqual(row(text, "**mean**"), ["**mean**", "0.2000", "0.1000"])
         self.assertEqual(row(text, "against points")[2], "-50 %")
 

@@ -10,8 +10,8 @@ import unittest
 import numpy as np
 
 from known_flight import START, flight, format_tum, moved, rotation  # first: it names the folder
-from evaluate import evaluate, format_report, main, parse_arguments
-from evaluation import metrics
+from evaluate import error_statistics, evaluate, format_report, main, parse_arguments
+from evaluation import evo_backend, metrics
 from evaluation.trajectory import Trajectory, TrajectoryError, read_trajectory
 from folder_case import FolderTest, call
 
@@ -320,6 +320,19 @@ class CommandLine(FolderTest):
             path = self.write("bad.tum", text + "\n")
             self.assert_refused(main, message, path, good)
             self.assert_refused(main, path, path, good)
+
+
+class Evo(unittest.TestCase):
+    @unittest.skipUnless(evo_backend.is_available(), "evo is not installed")
+    def test_same_numbers_as_numpy(self):
+        truth, generator = flight(rate=200.0), np.random.default_rng(1)
+        estimate = flight(rate=20.0)
+        estimate = moved(estimate, np.cumsum(generator.normal(0, 0.01, (len(estimate), 3)), axis=0))
+        estimate, truth, result = evaluate(estimate, truth)
+        self.assertEqual(result["computed_by"], "evo")
+        for name, figures in error_statistics(estimate, truth).items():
+            for key, value in (figures or {}).items():
+                self.assertAlmostEqual(value, result[name][key], 7, name)
 
 
 if __name__ == "__main__":

@@ -6,9 +6,11 @@ Usage: kalibr_to_config_test.py RUN_OFFLINE [unittest option ...]
 """
 
 import copy
+import functools
 import json
 import math
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -21,6 +23,7 @@ from folder_case import call
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 import kalibr_to_config  # noqa: E402
+from kalibr import radial_models  # noqa: E402
 
 RUN_OFFLINE = sys.argv[1] if len(sys.argv) > 1 else sys.exit(__doc__)
 
@@ -242,6 +245,86 @@ class RoundTrip(Kalibr):
             "\n")[2]), {"acc_n": 0.002, "gyr_n": 0.0002, "acc_w": 0.003, "gyr_w": "2e-05"})
 
 
+def ray(theta, phi):
+    return np.array([math.sin(theta) * math.cos(phi), math.sin(theta) * math.sin(phi),
+                     math.cos(theta)])
+
+
+def equidistant_pixel(camera, theta, phi):
+    """Returns the pixel of a ray by the model of docs/references.md [Kannala2006]."""
+    k = [camera["distortion_parameters"][name] for name in ("k1", "k2", "k3", "k4")]
+    fx, fy, cx, cy = (camera["projection_parameters"][name] for name in ("fx", "fy", "cx", "cy"))
+    radius = theta * (1 + sum(k[i] * theta ** (2 * i + 2) for i in range(4)))
+    return np.array([fx * radius * math.cos(phi) + cx, fy * radius * math.sin(phi) + cy])
+
+
+def double_sphere_pixel(x, y, z, xi, alpha):
+    first = math.sqrt(x * x + y * y + z * z)
+    second = math.sqrt(x * x + y * y + (xi * first + z) ** 2)
+    return np.array([x, y]) / (alpha * second + (1 - alpha) * (xi * first + z))
+
+
+def extended_unified_pixel(x, y, z, alpha, beta):
+    return np.array([x, y]) / (alpha * math.sqrt(beta * (x * x + y * y) + z * z) + (1 - alpha) * z)
+
+
+def field_of_view_pixel(x, y, z, w):
+    radius = math.hypot(x, y) / z
+    return np.array([x, y]) / z / radius * math.atan(2 * radius * math.tan(w / 2)) / w
+
+
+class Fitted(Kalibr):
+    """Tests lens models that are approximated by the equidistant one: pixels agree in the whole
+    image."""
+
+    FOCAL, CENTRE = np.array([310.0, 306.0]), np.array([340.5, 251.5])
+    CORNER = math.hypot((751 - 340.5) / 310.0, 251.5 / 306.0)  # farthest corner, in focal lengths
+
+    def assert_fits(self, pixel, values, **changes):
+        """Expects agreement with `pixel`, the lens's projection of a ray with `values`, in focal
+        lengths."""
+        intrinsics = changes.pop("before", []) + [*self.FOCAL.tolist(), *self.CENTRE.tolist()]
+        chain = {"cam0": edited(CAMERA, intrinsics=intrinsics, **changes)}
+        text = self.convert(chain=chain).stdout
+        stated = re.search(r"errors of at most (\S+) px up to (\S+) deg from the axis", text)
+        angle = math.radians(float(stated.group(2)))
+        self.assertAlmostEqual(np.linalg.norm(pixel(*ray(angle, 0.3), *values)), self.CORNER, 2)
+        camera = self.load(chain=chain)
+        self.assertEqual(camera["model_type"], "EQUIDISTANT")
+        errors = []
+        for theta in np.linspace(0.01, angle - 1e-3, 60):
+            for phi in np.linspace(0, 2 * math.pi, 13):
+                true_pixel = self.FOCAL * pixel(*ray(theta, phi), *values) + self.CENTRE
+                errors.append(np.linalg.norm(equidistant_pixel(camera, theta, phi) - true_pixel))
+        self.assertLess(max(errors), 1.02 * float(stated.group(1)) + 1e-9)
+        self.assertGreater(max(errors), 0.5 * float(stated.group(1)))
+        self.assertLess(max(errors), 0.05)
+
+    def test_double_sphere(self):
+        values = [-0.24, 0.56]
+        self.assert_fits(double_sphere_pixel, values, camera_model="ds", before=values,
+                         distortion_model="none", distortion_coeffs=[])
+
+    def test_extended_unified(self):
+        values = [0.59, 1.12]
+        self.assert_fits(extended_unified_pixel, values, camera_model="eucm", before=values,
+                         distortion_model="none", distortion_coeffs=[])
+
+    def test_field_of_view(self):
+        self.assert_fits(field_of_view_pixel, [0.93], distortion_model="fov",
+                         distortion_coeffs=[0.93])
+
+    def test_rays_from_behind_do_not_count(self):
+        lens = functools.partial(radial_models.ds, xi=-0.27, alpha=0.57)
+        self.assertAlmostEqual(math.degrees(radial_models.fit_equidistant(lens, 9.0).angle), 89.9)
+        self.assertIsNone(radial_models.fit_equidistant(lambda theta: math.nan * theta, 1.0))
+
+    def test_plumb_bob_is_radtan(self):
+        radtan = self.convert(chain={"cam0": CAMERA}).stdout
+        plumb_bob = self.convert(chain={"cam0": edited(CAMERA, distortion_model="plumb_bob")})
+        self.assertEqual(plumb_bob.stdout, radtan)
+
+
 class BadInput(Kalibr):
     def assert_refused(self, file, key, problem, **inputs):
         """Expects one line on stderr with the file, the key and the problem; nothing is written."""
@@ -258,7 +341,7 @@ class BadInput(Kalibr):
                             chain={"cam0": edited(CAMERA, **changes)})
 
     def test_unsupported_models(self):
-        for model, distortion in (("omni", "fov"), ("eucm", "none"), ("ds", "none"),
+        for model, distortion in (("omni", "fov"), ("eucm", "radtan"), ("ds", "equidistant"),
                                   ("omni", "equidistant"), ("pinhole-rs", "radtan")):
             self.assert_camera_refused("camera_model", f"{model}-{distortion} is not supported",
                                        camera_model=model, distortion_model=distortion)
@@ -279,6 +362,26 @@ class BadInput(Kalibr):
         self.assert_refused("imu.yaml", "imu0.gyroscopes.A", "g-sensitivity of the gyro", imu={
             "imu0": edited(IMU, model="scale-misalignment", accelerometers={"M": one},
                            gyroscopes={"M": one, "A": one})})
+
+    def test_lenses_that_no_equidistant_model_fits(self):
+        self.assert_camera_refused("camera_model", "nearest to this pinhole-fov camera is off by up"
+                                   " to 0.98 px, of which 0.05 are allowed; calibrate with"
+                                   " pinhole-equi", distortion_model="fov",
+                                   distortion_coeffs=[1.5])
+
+    def test_parameters_out_of_range(self):
+        self.assert_camera_refused("distortion_coeffs", "w must be from 1e-06 to 3.14, not 0",
+                                   distortion_model="fov", distortion_coeffs=[0.0])
+        for model, first, second, problem in (
+                ("ds", -0.2, 1.5, "alpha must be from 0 to 1, not 1.5"),
+                ("eucm", 0.5, 0.0, "beta must be from 1e-06 to inf, not 0.0")):
+            self.assert_camera_refused(
+                "intrinsics", problem, camera_model=model, distortion_model="none",
+                distortion_coeffs=[], intrinsics=[first, second, 300.0, 300.0, 376.0, 240.0])
+        self.assert_camera_refused("intrinsics", "focal lengths", distortion_model="fov",
+                                   distortion_coeffs=[0.9], intrinsics=[300.0, 0.0, 376.0, 240.0])
+        self.assert_camera_refused("intrinsics", "a list of 6 numbers", camera_model="ds",
+                                   distortion_model="none", distortion_coeffs=[])
 
     def test_missing_keys(self):
         self.assert_camera_refused("T_cam_imu", "camchain-imucam", T_cam_imu=None)

@@ -19,7 +19,7 @@ class Results(DatasetTest):
         result = self.call("--variants", "baseline", "improved", "--set", "max_cnt=99")
         self.assertEqual(len(self.calls()), 4)
         self.assertTrue(all("--set max_cnt=99" in call for call in self.calls()))
-        self.assertIn("[4/4] hall improved from_0.0s: APE 0.1", result.stderr)
+        self.assertIn("[4/4] hall improved from_0.0s_1: APE 0.1", result.stderr)
         self.assertEqual(len(self.rows()), 4)
         for row in self.rows():
             self.assertAlmostEqual(float(row["ape_m"]),
@@ -59,7 +59,7 @@ class Results(DatasetTest):
         result = self.call("--variants", "baseline", "improved", "--starts", "5", "0", "10",
                            exit_code=1)
         self.assertEqual(len(self.calls()), 6)
-        self.assertIn("hall improved from_10.0s: FAILED: no trajectory", result.stderr)
+        self.assertIn("hall improved from_10.0s_1: FAILED: no trajectory", result.stderr)
         self.assertIn("from 0, 5, 10 s on", self.report())
         rows = [row for row in self.rows() if row["variant"] == "improved"]
         self.assertEqual([row["start_s"] for row in rows], ["0", "5", "10"])
@@ -67,9 +67,18 @@ class Results(DatasetTest):
             self.assertAlmostEqual(float(row["ape_m"]), ape, 3)
             self.assertAlmostEqual(float(row["coverage_percent"]), coverage, 0)
         self.assertRegex(self.report(), r"\| 0\.12\d+ ± 0\.03\d+ \[0\.1\d+, 0\.15\d+\]"
-                                        r" \(94 %\) over 2 starts, 1 of 3 failed")
+                                        r" \(94 %\) over 2 runs, 1 of 3 failed")
         self.assertRegex(self.report(), r"\*\*mean\*\* of the 2 that all variants have")
         self.assertRegex(self.report(), r"\| hall +\| improved +\| 10 +\| no trajectory")
+
+    def test_repetitions(self):
+        self.add("hall")
+        self.call("--variants", "improved", "--repetitions", "3")
+        self.assertEqual(len(self.calls()), 3)
+        self.assertEqual([row["repetition"] for row in self.rows()], ["1", "2", "3"])
+        self.assertRegex(self.report(), r"0\.10\d+ ± 0\.0000 \[.*\] \(95 %\) over 3 runs")
+        with open(os.path.join(self.output, "ape.png"), "rb") as file:
+            self.assertEqual(file.read(4), b"\x89PNG")
 
     def test_without_ground_truth(self):
         self.add("hall", truth=False)
@@ -117,7 +126,7 @@ class Failures(DatasetTest):
         self.add("d_loses", "lose")
         result = self.call("--variants", "improved", exit_code=1)
         self.assertIn("3 of 4 runs failed", result.stderr)
-        self.assertIn("b_fails improved from_0.0s: FAILED: no trajectory from 400 images",
+        self.assertIn("b_fails improved from_0.0s_1: FAILED: no trajectory from 400 images",
                       result.stderr)
         statuses = {row["sequence"]: row["status"] for row in self.rows()}
         self.assertEqual(statuses["a_good"], "compared")
@@ -188,7 +197,7 @@ class Resuming(DatasetTest):
     def test_incomplete_results_are_repeated(self):
         self.add("hall")
         self.assert_repeated()
-        folder = os.path.join(self.output, "runs", "hall", "improved", "from_0.0s")
+        folder = os.path.join(self.output, "runs", "hall", "improved", "from_0.0s_1")
         for name in ("run.json", "trajectory.tum", "summary.json"):
             os.remove(os.path.join(folder, name))
             self.assert_repeated()
@@ -280,7 +289,7 @@ class BadCalls(DatasetTest):
     def test_damaged_results(self):
         self.add("hall")
         self.call("--variants", "improved")
-        folder = os.path.join(self.output, "runs", "hall", "improved", "from_0.0s")
+        folder = os.path.join(self.output, "runs", "hall", "improved", "from_0.0s_1")
         with open(os.path.join(folder, "summary.json"), "w", encoding="utf-8") as file:
             file.write("{")
         self.call("--variants", "improved", exit_code=1)

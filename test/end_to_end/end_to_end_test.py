@@ -18,8 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 CONFIG = ROOT / "config" / "euroc.yaml"
 SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
 DURATION = 12  # [s]
-LOOP_RESULTS = ("trajectory_map.tum", "covariance_map.csv", "trajectory_final.tum", "loops.csv",
-                "pose_graph.g2o", "colmap/points3D.txt")
+LOOP_RESULTS = ("trajectory_map.tum", "covariance_map.csv", "trajectory_final.tum", "loops.csv")
 
 
 def run(*command):

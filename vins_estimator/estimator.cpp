@@ -78,8 +78,9 @@ EstimatorOutput Estimator::Use(const FrameMeasurement& measurement, int features
   const StandstillDetector& detector = world_.standstill_detector;
   const bool scene_moves = standstill && standstill->scene_moves;
   const bool may_move = !world_.odometry.started() || detector.doubts_camera();
-  world_.unfelt_motion.Add(ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns),
-                           scene_moves || (may_move && detector.sees_unfelt_motion()));
+  const double interval = ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns);
+  world_.unfelt_motion.Add(interval, scene_moves || (may_move && detector.sees_unfelt_motion()));
+  world_.unseen_motion.Add(interval, standstill && standstill->view_moves_along);
   if (!world_.odometry.started()) return Initialize(measurement);
   const bool ignores_features = scene_moves || detector.doubts_camera();
   return ignores_features ? Track(WithoutFeatures(measurement), standstill, features_observed)
@@ -141,6 +142,7 @@ bool Estimator::GiveUp(const Failure& failure) {
   PerWorld lost = std::exchange(world_, PerWorld(config_, options_));
   world_.newest = lost.newest;
   world_.unfelt_motion = lost.unfelt_motion;
+  world_.unseen_motion = lost.unseen_motion;
   world_.initializer.KeepRotation(lost.initializer);
   const bool begins_world = failure.has_drifted || !lost.bridge.Begin(failure.why);
   if (!begins_world) world_.bridge = std::move(lost.bridge);

@@ -89,6 +89,9 @@ WindowOdometry::Tracked WindowOdometry::Track(
 void WindowOdometry::SetStandstill(
     const std::optional<StandstillDetector::Standstill>& standstill) {
   SlidingWindow& window = optimizer_.mutable_estimate()->map.window;
+  if (standstill && standstill->view_moves_along) {
+    window.IgnoreAccelerationSince(standstill->since_ns);
+  }
   const bool moves = standstill && standstill->common_px > options_->max_motion_at_rest_px;
   if (!standstill || (moves && MedianDepth())) {
     window.SetStillSince(std::nullopt);

@@ -86,6 +86,9 @@ struct SlidingWindow {
   // which limits the certainty of the standstill.
   void SetStillSince(std::optional<int64_t> still_since_ns, double flow = 0);
 
+  // Lets the accelerometer tell nothing of the motion after a time: of the lift that it feels.
+  void IgnoreAccelerationSince(int64_t t_ns);
+
   // Returns whether any frame is stationary.
   bool HasStationary() const;
 

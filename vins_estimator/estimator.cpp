@@ -2,6 +2,7 @@
 #include "vins_estimator/estimator.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "common/stopwatch.h"
@@ -10,6 +11,8 @@
 
 namespace plm_vins {
 namespace {
+
+constexpr char kContradictedStart[] = "all points together contradict the start by a few";
 
 FrameMeasurement WithoutFeatures(FrameMeasurement measurement) {
   measurement.points.points.clear();
@@ -92,21 +95,28 @@ EstimatorOutput Estimator::Initialize(const FrameMeasurement& measurement) {
   world_.bridge.AddLost(measurement.imu, measurement.t_ns);
   auto result = world_.initializer.Add(measurement);
   const double milliseconds = stopwatch.Milliseconds();
+  std::string reason = world_.initializer.reason();
   EstimatorOutput output;
   if (result) {
     InitialUncertainty uncertainty = UncertaintyOf(config_.sensor, result->from_standstill);
     // A bias along gravity shows; it is hardly larger than those across, which tilt the start.
     uncertainty.accel_bias = std::max(uncertainty.accel_bias, result->accel_bias);
     const bool is_bridged = world_.bridge.begun() && KeepFrame(&*result, &uncertainty);
-    output = world_.odometry.Start(*result, uncertainty);
-    output.bridged = is_bridged;
-    output.restarted = world_.bridge.begun() && !is_bridged;
+    auto started = world_.odometry.Start(*result, uncertainty);
+    if (started) {
+      output = std::move(*started);
+      output.bridged = is_bridged;
+      output.restarted = world_.bridge.begun() && !is_bridged;
+    } else {
+      world_.odometry = WindowOdometry(config_, options_);
+      reason = kContradictedStart;
+    }
   } else {
     output.restarted = !world_.bridge.CanConnect(world_.initializer.begin_ns());
   }
-  output.reason = output.restarted ? world_.bridge.why() : world_.initializer.reason();
+  output.reason = output.restarted ? world_.bridge.why() : reason;
   output.timings.initialization = milliseconds;
-  if (result || output.restarted) world_.bridge.Clear();
+  if (output.has_pose || output.restarted) world_.bridge.Clear();
   return output;
 }
 

@@ -86,7 +86,8 @@ struct SlidingWindow {
   // which limits the certainty of the standstill.
   void SetStillSince(std::optional<int64_t> still_since_ns, double flow = 0);
 
-  // Lets the accelerometer tell nothing of the motion after a time: of the lift that it feels.
+  // Ignores the accelerometer after a time: it feels a motion, of a lift, that the camera does not
+  // see.
   void IgnoreAccelerationSince(int64_t t_ns);
 
   // Returns whether any frame is stationary.

@@ -4,9 +4,9 @@
 import csv
 import os
 
+from evaluation.markdown import Table
 from evaluation.steps import AFTER, BEFORE
 
-from .markdown import Table
 from .paper import paper_ape, paper_sequence
 from .results import FAILED, METRIC, METRICS, NONE
 from .variants import DESCRIPTIONS

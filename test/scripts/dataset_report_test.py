@@ -8,11 +8,11 @@ import unittest
 from types import SimpleNamespace
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
-from dataset.markdown import Table  # noqa: E402
 from dataset.paper import SEQUENCES, paper_ape  # noqa: E402
 from dataset.report import markdown_report, metric_table  # noqa: E402
 from dataset.results import FAILED, METRIC, NONE, Results, RunResult  # noqa: E402
 from dataset.variants import DESCRIPTIONS, VARIANTS  # noqa: E402
+from evaluation.markdown import Table  # noqa: E402
 
 APE = METRIC["ape_m"]
 

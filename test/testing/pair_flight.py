@@ -37,7 +37,7 @@ def halve_images(text):
     """Returns the configuration for images of half the size."""
     halved = re.sub(r"\b(f[xy]|c[xy]|(?:cam1_)?image_(?:width|height)): ([\d.]+)",
                     lambda found: f"{found[1]}: {float(found[2]) / 2:g}", text)
-    return halved + "\nmin_dist: 15\n"
+    return re.sub(r"^min_dist:.*\n", "", halved, flags=re.MULTILINE) + "\nmin_dist: 15\n"
 
 
 def write_config(folder, sensor):

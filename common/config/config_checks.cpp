@@ -137,9 +137,6 @@ void CheckImages(const Config& config, const Report& report) {
     if (config.points.min_dist >= std::min(camera.width, camera.height)) {
       report("min_dist", "must be smaller than the image");
     }
-    if (2 * config.lines.border >= std::min(camera.width, camera.height) - 1) {
-      report("line_border", "covers the whole image; reduce it");
-    }
   }
 }
 

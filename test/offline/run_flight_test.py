@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests run_offline on simulated flights: interrupts, and a second flight in the map of the first.
 
-Usage: run_flight_test.py SIMULATE RUN_OFFLINE [unittest option ...]
+Usage: run_flight_test.py SIMULATE RUN_OFFLINE FLIGHT [unittest option ...]
+FLIGHT: ASL folder of a fast flight of 30 s, which revisits positions after 15 s.
 """
 
 import json
@@ -25,18 +26,12 @@ from evaluation import metrics  # noqa: E402
 from evaluation.trajectory import read_trajectory  # noqa: E402
 
 CONFIG = ROOT / "config" / "euroc.yaml"
-SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
+SIMULATE, RUN_OFFLINE, SECOND = sys.argv[1:4] if len(sys.argv) > 3 else sys.exit(__doc__)
 RATE_HZ = 10
 IMAGES = 100  # of the first flight
-SECONDS = 24  # of the second flight, which revisits positions after 15 s
+SECONDS = 30  # of the second flight
 CLOCK_ERROR_NS = 100_000_000_000
 PATIENCE = 300  # [s]
-
-
-def simulate(folder, motion, seconds):
-    command = [SIMULATE, "--asl", folder, "--config", CONFIG, "--motion", motion, "--duration",
-               seconds, "--frame-rate", RATE_HZ, "--exposure", 0]
-    subprocess.run([str(word) for word in command], stderr=subprocess.DEVNULL, check=True)
 
 
 def heed_signals():
@@ -52,14 +47,6 @@ def start(*options):
                             encoding="utf-8", preexec_fn=heed_signals)
 
 
-def length(words):
-    return float(np.linalg.norm([float(word) for word in words]))
-
-
-def distance(words, others):
-    return length([float(word) - float(other) for word, other in zip(words, others)])
-
-
 def wait_until(is_so):
     deadline = time.monotonic() + PATIENCE
     while not is_so() and time.monotonic() < deadline:
@@ -72,8 +59,11 @@ class RunFlight(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.flights = pathlib.Path(folder.name)
-        simulate(cls.flights / "first", "gentle", IMAGES / RATE_HZ)
-        simulate(cls.flights / "second", "fast", SECONDS)
+        command = [SIMULATE, "--asl", cls.flights / "first", "--config", CONFIG, "--motion",
+                   "gentle", "--duration", IMAGES / RATE_HZ, "--frame-rate", RATE_HZ,
+                   "--exposure", 0]
+        subprocess.run([str(word) for word in command], stderr=subprocess.DEVNULL, check=True)
+        (cls.flights / "second").symlink_to(SECOND)
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -168,24 +158,11 @@ class RunFlight(unittest.TestCase):
         self.assertEqual(len(read_trajectory(self.results / "trajectory_final.tum")),
                          self.summary()["poses"])
 
-    def test_the_graph_of_an_adjusted_map_has_what_was_measured(self):
+    def test_the_map_is_adjusted(self):
         error = self.run_flight(self.flights / "second", "--set", "loop_closure=1")
-        loops = self.summary()["loops"]
-        self.assertIn(f"adjusting the map of {loops['bundle']['keyframes']} keyframes\n", error)
-        self.assertEqual(loops["bundle"]["rounds"], 3)
-        rows = [line.split() for line in
-                (self.results / "pose_graph.g2o").read_text(encoding="utf-8").splitlines()]
-        nodes = {row[1]: row[2:5] for row in rows if row[0].startswith("VERTEX")}
-        accepted = [row.split(",") for row in
-                    (self.results / "loops.csv").read_text(encoding="utf-8").splitlines()
-                    if ",accepted," in row]
-        self.assertTrue({row[2] for row in accepted} <= set(nodes))
-        steps = [row for row in rows if row[0].startswith("EDGE")]
-        self.assertGreater(max(abs(length(row[3:6]) - distance(nodes[row[1]], nodes[row[2]]))
-                               for row in steps), 1e-3)
-        images = (self.results / "colmap" / "images.txt").read_text(encoding="utf-8").splitlines()
-        self.assertEqual([int(line.split()[0]) - 1 for line in images[::2]],
-                         [int(number) for number in nodes])
+        bundle = self.summary()["loops"]["bundle"]
+        self.assertIn(f"adjusting the map of {bundle['keyframes']} keyframes\n", error)
+        self.assertEqual(bundle["rounds"], 3)
 
     def test_results_stay_where_the_map_and_features_cannot_be_saved(self):
         gone = self.folder / "gone"
@@ -206,11 +183,11 @@ class RunFlight(unittest.TestCase):
         gone.mkdir()
         process = self.start_first("--map-out", gone / "map.plm")
         shutil.rmtree(gone)
-        (self.results / "pose_graph.g2o").mkdir()
+        (self.results / "trajectory_final.tum").mkdir()
         error = process.communicate(timeout=PATIENCE)[1]
         self.assertEqual(process.returncode, 1, error)
         self.assertIn(f"cannot write {gone / 'map.plm'}", error)
-        self.assertIn("pose_graph.g2o", error)
+        self.assertIn("trajectory_final.tum", error)
 
     def copy_with_imu(self, change):
         """The first flight with other rows of the IMU: those that `change` makes of stamp [ns] and
@@ -281,4 +258,4 @@ class RunFlight(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]])

@@ -45,10 +45,10 @@ TEST(EstimatorStandstill, SlowFlightIsNotStandstill) {
   }
 }
 
-// After minutes on the ground points with known depths are still there.
+// After half a minute on the ground points with known depths are still there.
 TEST(EstimatorStandstill, MapSurvivesAStandstill) {
   FlightPlan plan;
-  plan.duration = 82;
+  plan.duration = 42;
   plan.T_W_V = [](double t) { return GentleFlight(t, 2, 12); };
   const EstimatedFlight flight = Fly(plan);
   EXPECT_TRUE(flight.outputs.back().stationary);

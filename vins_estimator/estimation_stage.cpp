@@ -178,15 +178,17 @@ std::string EstimationStage::ImuContradiction() const {
   return DescribeContradiction(evidence);
 }
 
+// The noise scale is that of both sensors; the samples of either may show it, by vibration.
 double EstimationStage::NoiseFactor() const {
   const EstimatorReport& newest = world_->newest;
   const ImuNoise& configured = config_.sensor.imu_noise;
   const ImuNoise& noise = newest.has_pose ? newest.imu_noise : configured;
   const ImuNoiseMeter& samples = world_->imu_noise_meter;
-  return std::max(
-      {std::sqrt(newest.imu_noise_scale),
-       noise.accel_density / std::max(configured.accel_density, samples.accel_density()),
-       noise.gyro_density / std::max(configured.gyro_density, samples.gyro_density())});
+  const double accel =
+      noise.accel_density / std::max(configured.accel_density, samples.accel_density());
+  const double gyro =
+      noise.gyro_density / std::max(configured.gyro_density, samples.gyro_density());
+  return std::max({std::sqrt(newest.imu_noise_scale) * std::min(accel, gyro), accel, gyro});
 }
 
 const Finding& EstimationStage::InputFinding() const { return world_->input_faults.finding(); }

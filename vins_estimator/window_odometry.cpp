@@ -2,6 +2,7 @@
 #include "vins_estimator/window_odometry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,11 @@ namespace plm_vins {
 namespace {
 
 constexpr double kNewStart = 1.5;  // [s]
+
+// After a start in motion, velocity and scale depend on the accelerometer alone, whose errors are
+// not white: slow vibration, scale. Factor on the stated variance at the start, minus one, and the
+// time in which it decays.
+constexpr double kNotWhite = 1.0, kDecay = 4;  // [1], [s]
 
 // Returns whether the optimized window is another solution than the initial states, which have
 // fewer points but the same measurements: correct starts move by up to a sixth of the path.
@@ -39,6 +45,7 @@ std::optional<EstimatorOutput> WindowOdometry::Start(const InitializationResult&
   const Step step = optimizer_.SolveFirst();
   if (Contradicts(window(), result.frames)) return std::nullopt;
   started_ = true;
+  from_standstill_ = result.from_standstill;
   start_ns_ = window().newest().state.t_ns;
   depth_evidence_.Begin(window().newest().state.position(), !result.from_standstill);
   return Describe(step);
@@ -171,10 +178,13 @@ EstimatorOutput WindowOdometry::Describe(const Step& step) const {
   output.status = EstimatorStatus::kTracking;
   output.has_pose = true;
   optimizer_.Describe(&output);
-  if (const auto& covariance = step.solution.covariance) {
-    output.uncertainty = {covariance->topLeftCorner<6, 6>(), covariance->block<3, 3>(6, 6),
-                          BodyVelocityCovariance(output.state, covariance->block<6, 6>(3, 3)),
-                          covariance->bottomRightCorner<6, 6>()};
+  if (step.solution.covariance) {
+    const double age = ToSeconds(output.state.t_ns - start_ns_);
+    const double factor = 1 + (from_standstill_ ? 0 : kNotWhite * std::exp(-age / kDecay));
+    const Matrix15d covariance = factor * *step.solution.covariance;
+    output.uncertainty = {covariance.topLeftCorner<6, 6>(), covariance.block<3, 3>(6, 6),
+                          BodyVelocityCovariance(output.state, covariance.block<6, 6>(3, 3)),
+                          covariance.bottomRightCorner<6, 6>()};
   }
   output.contradicted = estimate_monitor_.contradicted();
   const int fitting = step.counts.known_seen - step.counts.known_rejected;

@@ -74,7 +74,7 @@ class WindowOdometry {
 
   const Config* config_;
   const EstimatorOptions* options_;
-  bool started_ = false;
+  bool started_ = false, from_standstill_ = false;
   int64_t start_ns_ = 0;  // time of the first pose
   DepthEvidence depth_evidence_;
   WindowOptimizer optimizer_;

@@ -109,7 +109,7 @@ TEST_F(EstimatorPlacement, IsNotUsedAtStandstill) {
   EXPECT_TRUE(flight.outputs.back().stationary);
 }
 
-// Points that determine the velocity badly may begin like this: most points contradict it.
+// Few points may determine the velocity badly; most points then contradict it.
 TEST(EstimatorPlacementOfStart, IsRefusedIfItContradictsTheInitialStates) {
   const auto flight =
       testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kGentle, 1), /*skip=*/3);

@@ -12,7 +12,6 @@ import sys
 import numpy as np
 
 from evaluation import consistency, evo_backend, metrics, mistakes, steps
-from evaluation.evo_zip import write_evo_zip
 from evaluation.run_results import read_estimate
 from evaluation.side_by_side import side_by_side
 from evaluation.trajectory import TrajectoryError, read_truth
@@ -167,8 +166,6 @@ def parse_arguments(arguments):
     parser.add_argument("ground_truth", help="TUM file, EuRoC csv (.../data.csv) or ASL folder")
     parser.add_argument("--plots", metavar="DIR", help="write PNG figures there")
     parser.add_argument("--json", metavar="FILE", help="write all figures there")
-    parser.add_argument("--evo-zip", metavar="FILE",
-                        help="write the APE there, for evo_res, which names it as the file")
     parser.add_argument("--align", choices=metrics.ALIGNMENTS, default="se3",
                         help="alignment without scale before the errors are taken (default: se3)")
     parser.add_argument("--max-diff", type=_seconds, default=metrics.MAX_DIFFERENCE, metavar="S",
@@ -227,8 +224,6 @@ def main(arguments=None):
         if options.json:
             with open(options.json, "w", encoding="utf-8") as file:
                 json.dump(result, file, indent=2)
-        if options.evo_zip:
-            write_evo_zip(options.evo_zip, paired_estimate, paired_truth, options.align)
         if options.plots:
             from evaluation import plots  # matplotlib is needed for plots only
             print(*plots.write_plots(options.plots, paired_estimate, paired_truth), sep="\n")

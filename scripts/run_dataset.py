@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the odometry over many recordings, in several variants, and compares the results.
 
-Writes to the output folder: report.md, runs.csv, table.csv, plots/ and runs/ with the results of
-every run. The same command again executes only missing runs; Ctrl-C stops it.
+Writes to the output folder: report.md, runs.csv, ape.png, and runs/ with the results of every run.
+The same command again executes only missing runs; Ctrl-C stops it.
 """
 
 import argparse
@@ -12,17 +12,16 @@ import datetime
 import fcntl
 import math
 import os
+import signal
 import sys
 
-from dataset.comparison import write_comparison
 from dataset.environment import (check_config, find_config, find_program, machine,
                                  usable_cores)
 from dataset.errors import DatasetError
-from dataset.executors import open_executor
-from dataset.progress import Progress
+from dataset.plot import write_plot
+from dataset.report import markdown_report, metric_table, write_csv
 from dataset.results import METRIC, Evaluator, Results
-from dataset.run import Run, Settings
-from dataset.run_queue import carry_out
+from dataset.run import Run, Settings, run_all
 from dataset.sequences import find_sequences, select_sequences
 from dataset.variants import VARIANTS, describe_variants, select_variants
 from evaluation.steps import describe as describe_steps
@@ -43,15 +42,12 @@ def parse_arguments(arguments):
                         help="only these: names, prefixes or wildcards")
     parser.add_argument("--variants", nargs="+", metavar="NAME", default=list(VARIANTS),
                         help="only these (default: all)")
+    parser.add_argument("--starts", type=_seconds, nargs="+", metavar="S", default=[0.0],
+                        help="run each sequence and variant from each of these [s after the first"
+                        " image]: the tables have means and spreads over them")
     parser.add_argument("--repetitions", type=_positive, default=1, metavar="N",
-                        help="runs of each sequence, variant and start (default: 1; trajectories"
-                        " repeat exactly, times do not)")
-    start = parser.add_mutually_exclusive_group()
-    start.add_argument("--start", dest="starts", type=_seconds, nargs=1, metavar="S",
-                       help="skip this much after the first image [s]")
-    start.add_argument("--starts", type=_seconds, nargs="+", metavar="S",
-                       help="run each sequence and variant from each of these [s after the first"
-                       " image]: the tables have means and spreads over them")
+                        help="repeat each run (default: 1; trajectories repeat exactly, times do"
+                        " not)")
     parser.add_argument("--duration", type=_seconds, metavar="S", help="process this much [s]")
     parser.add_argument("--without-steps", action="store_true",
                         help="exclude the times around steps of the ground truth, as evaluate.py"
@@ -66,14 +62,8 @@ def parse_arguments(arguments):
                         default=max(1, usable_cores() // THREADS_PER_RUN),
                         help="runs at the same time (default: %(default)s, one per"
                         f" {THREADS_PER_RUN} cores; more of them disturb the times)")
-    parser.add_argument("--scheduler", metavar="ADDRESS",
-                        help="hand the runs to the workers of this Dask scheduler, such as"
-                        " tcp://HOST:8786; they share all folders with this machine")
-    parser.add_argument("--no-plots", action="store_true",
-                        help="tables only: neither plots/ nor index.html and the pages of runs")
     parser.add_argument("--run-offline", metavar="FILE",
                         help="path of run_offline, if it is not found")
-    parser.set_defaults(starts=[0.0])
     options = parser.parse_args(arguments)
     options.starts = sorted(set(options.starts))
     return options
@@ -100,7 +90,7 @@ def _override(text):
 
 
 def plan(options):
-    """Returns the settings, their fingerprint, and all runs, finished or not."""
+    """Returns the settings, their fingerprint, the sequences, and all runs, finished or not."""
     sequences = find_sequences(options.recordings)
     if options.sequences:
         sequences = select_sequences(sequences, options.sequences)
@@ -108,8 +98,7 @@ def plan(options):
                         os.path.abspath(options.output), options.duration, dict(options.set))
     fingerprint = settings.fingerprint()
     runs = [Run(settings, fingerprint, sequence, variant, VARIANTS[variant], start, repetition)
-            for repetition in range(1, options.repetitions + 1)
-            for start in options.starts
+            for repetition in range(1, options.repetitions + 1) for start in options.starts
             for sequence in sequences for variant in select_variants(options.variants)]
     return settings, fingerprint, sequences, runs
 
@@ -127,7 +116,7 @@ def locked(folder):
         yield
 
 
-def announce(sequences, evaluator, runs, unfinished, where):
+def announce(sequences, evaluator, runs, unfinished):
     for sequence in sequences:
         if sequence.name in evaluator.unreadable:
             print(f"run_dataset.py: {sequence.name}: {evaluator.unreadable[sequence.name]}; it runs"
@@ -138,8 +127,7 @@ def announce(sequences, evaluator, runs, unfinished, where):
         truth = sequence.truth or "none, so no APE (put it beside the recording as"\
             f" {sequence.name}.tum or .csv)"
         print(f"{sequence.name}: {sequence.path}; ground truth: {truth}")
-    print(f"{len(runs)} runs, {len(runs) - len(unfinished)} of them finished before; {where}",
-          flush=True)
+    print(f"{len(runs)} runs, {len(runs) - len(unfinished)} of them finished before", flush=True)
 
 
 def describe(result):
@@ -153,7 +141,7 @@ def describe(result):
             f" {METRIC['coverage_percent'].value(result):.0f} %, {speed}")
 
 
-def facts(options, settings, fingerprint, where):
+def facts(options, settings, fingerprint):
     """Returns the facts about the whole run for the report."""
     starts = ", ".join(f"{start:g}" for start in options.starts)
     part = "all" if starts == "0" and options.duration is None else (
@@ -163,34 +151,46 @@ def facts(options, settings, fingerprint, where):
             ("part of each", part),
             ("configuration", settings.config + (f" with {overrides}" if overrides else "")),
             ("program", f"{settings.program}, SHA-256 {fingerprint['program_sha256'][:12]}"),
-            ("machine", f"{machine()}; runs: {where}; load average of the last 15 minutes:"
-                        f" {os.getloadavg()[2]:.1f}"),
-            ("repetitions", str(options.repetitions)),
+            ("machine", f"{machine()}; {options.jobs} runs at a time; load average of the last 15"
+                        f" minutes: {os.getloadavg()[2]:.1f}"),
             ("written", datetime.datetime.now().strftime("%Y-%m-%d %H:%M"))]
+
+
+def carry_out(runs, jobs, evaluator):
+    """Executes runs and prints the outcome of each."""
+    ended = []
+
+    def report(run, seconds):
+        ended.append(run)
+        print(f"[{len(ended)}/{len(runs)}] {run.name}: {describe(evaluator.result(run))}"
+              f" ({seconds:.0f} s)", file=sys.stderr, flush=True)
+
+    run_all(runs, jobs, report)
+
+
+def write_comparison(folder, results, about):
+    """Writes the report, the table of runs and the plot; returns their paths."""
+    report = os.path.join(folder, "report.md")
+    with open(report, "w", encoding="utf-8") as file:
+        file.write(markdown_report(results, about))
+    return report, write_csv(folder, results), write_plot(folder, results)
 
 
 def run_dataset(options):
     settings, fingerprint, sequences, runs = plan(options)
     evaluator = Evaluator(sequences, options.duration, options.without_steps)
-    with locked(settings.output), open_executor(
-            options.scheduler, options.jobs) as (executor, where):
+    with locked(settings.output):
         unfinished = [run for run in runs if not run.is_finished()]
         if unfinished:
             check_config(settings.program, settings.config, settings.overrides)
-        announce(sequences, evaluator, runs, unfinished, where)
-        progress = Progress(len(unfinished), lambda run: describe(evaluator.result(run)))
-        if not carry_out(unfinished, executor, settings.output, progress):
-            left = sum(not run.is_finished() for run in runs)
-            print(f"run_dataset.py: interrupted with {left} of {len(runs)} runs left; run the same"
-                  " command again to continue", file=sys.stderr)
-            return INTERRUPTED
-        results = Results((evaluator.result(run) for run in runs), options.duration)
+        announce(sequences, evaluator, runs, unfinished)
+        carry_out(unfinished, options.jobs, evaluator)
         if settings.fingerprint() != fingerprint:
             print("run_dataset.py: the program or the configuration has changed meanwhile, so runs"
                   " may not be comparable; the same command repeats them all", file=sys.stderr)
-        about = facts(options, settings, fingerprint, where)
-        print(*write_comparison(settings.output, results, evaluator, about,
-                                not options.no_plots), sep="\n")
+        results = Results((evaluator.result(run) for run in runs), options.duration)
+        files = write_comparison(settings.output, results, facts(options, settings, fingerprint))
+        print(metric_table(results, METRIC["ape_m"]), *files, sep="\n")
     failures = sum(result.failure is not None for result in results.all())
     if failures:
         print(f"run_dataset.py: {failures} of {len(runs)} runs failed, see the report",
@@ -200,6 +200,7 @@ def run_dataset(options):
 
 def main(arguments=None):
     options = parse_arguments(arguments)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         return run_dataset(options)
     except (DatasetError, TrajectoryError) as error:

@@ -9,8 +9,8 @@ source "$root/scripts/usage.sh"
 common_packages=(
   build-essential cmake curl libboost-dev libboost-program-options-dev libceres-dev
   libeigen3-dev libgmock-dev libgtest-dev libopencv-contrib-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev
-  python3-matplotlib python3-numpy python3-pil python3-tqdm python3-yaml unzip)
-optional_packages=(python3-distributed python3-plotly python3-tornado)  # for --scheduler, and for 3-D pages
+  python3-matplotlib python3-numpy python3-pil python3-yaml unzip)
+optional_packages=(python3-plotly python3-tornado)  # for 3-D pages
 debian_packages=(
   catkin libcv-bridge-dev libdiagnostic-updater-dev
   libgeometry-msgs-dev libimage-transport-dev

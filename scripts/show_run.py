@@ -9,7 +9,6 @@ import sys
 
 from dataset.sequences import find_truth
 from evaluation.trajectory import TrajectoryError, read_truth
-from pages.html import embedded_plotly
 from pages.run_folder import RunFolder
 from pages.run_page import run_page
 
@@ -31,7 +30,7 @@ def main(arguments=None):
         run = RunFolder.read(options.run)
         recording = run.summary.get("input")
         truth = options.groundtruth or (recording and find_truth(recording))
-        text = run_page(run, truth and read_truth(truth), embedded_plotly())
+        text = run_page(run, truth and read_truth(truth))
         with open(output, "w", encoding="utf-8") as file:
             file.write(text)
     except (TrajectoryError, OSError) as error:

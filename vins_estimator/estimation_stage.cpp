@@ -32,6 +32,10 @@ constexpr char kUnfeltInFlight[] =
     "train, the deck of a ship), or the IMU does not belong to this camera; meanwhile the images "
     "move no estimate";
 
+constexpr char kUnseen[] =
+    "the camera sees no motion that the IMU feels: a lift or a vehicle, in which the view moves "
+    "along, or the IMU is not fixed to the camera; meanwhile the pose is relative to the view";
+
 // Standard deviations that stand for findings without any: what the data state themselves, and what
 // other causes may show as well.
 constexpr double kFact = 1000, kUnfeltMotion = 8;
@@ -171,7 +175,6 @@ std::string EstimationStage::ImuContradiction() const {
   using Rotations = ContradictionEvidence::Rotations;
   if (world_->rotation_checks.front().agrees()) evidence.rotations = Rotations::kAgree;
   if (!FindRotationFault().text.empty()) evidence.rotations = Rotations::kExplained;
-  evidence.camera_rests = estimator_->FeelsUnseenMotion();
   return DescribeContradiction(evidence);
 }
 
@@ -203,6 +206,7 @@ RankedFinding EstimationStage::FindInputFault() const {
   const RankedFinding lengths = {lengths_->Finding(), lengths_->Contradiction()};
   // A wrong focal length or rotation makes lengths wrong; a wrong length turns no camera.
   const RankedFinding& worst = rotations.text.empty() ? lengths : rotations;
+  if (worst.text.empty() && estimator_->ViewMovesAlong()) return {kUnseen, kUnfeltMotion};
   if (!worst.text.empty() || !estimator_->SeesUnfeltMotion()) return worst;
   return {world_->newest.has_pose ? kUnfeltInFlight : kUnfeltBeforeStart, kUnfeltMotion};
 }

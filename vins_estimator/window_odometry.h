@@ -37,8 +37,10 @@ class WindowOdometry {
     std::vector<std::vector<PixelResidual>> residuals;
   };
 
-  // Fills the window with the initial frames and optimizes it.
-  EstimatorOutput Start(const InitializationResult& result, const InitialUncertainty& uncertainty);
+  // Fills the window with the initial frames and optimizes it. Returns nullopt if this contradicts
+  // the initial states; the object must not be used then.
+  std::optional<EstimatorOutput> Start(const InitializationResult& result,
+                                       const InitialUncertainty& uncertainty);
   bool started() const { return started_; }
 
   // Median depth of the known points in the newest image [m]; nullopt if there are few, or if no

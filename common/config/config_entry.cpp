@@ -68,9 +68,13 @@ std::string TriedAt(const std::string& file) {
   return " (tried " + std::filesystem::absolute(path, error).string() + ")";
 }
 
+std::string NameOf(const std::string& location, const std::string& key) {
+  return location + ": " + key;
+}
+
 void AddProblem(const std::string& location, const std::string& key, const std::string& problem,
                 std::vector<std::string>* problems) {
-  problems->push_back(location + ": " + key + ": " + problem);
+  problems->push_back(NameOf(location, key) + ": " + problem);
 }
 
 // Stops at the first exceeded size limit.
@@ -90,7 +94,7 @@ bool Flatten(const YAML::Node& map, const std::string& prefix, int depth, const 
       continue;
     }
     const auto [entry, is_new] =
-        entries->insert({key, ConfigEntry{value, location, location + ": " + key}});
+        entries->insert({key, ConfigEntry{value, location, NameOf(location, key)}});
     if (!is_new) AddProblem(location, key, AppearsTwice(entry->second), problems);
   }
   return true;

@@ -1,104 +1,85 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report on all results, in markdown."""
+"""The report on all results in markdown, and a CSV file of all runs."""
 
+import csv
 import os
 
+from evaluation.markdown import Table
 from evaluation.steps import AFTER, BEFORE
 
-from . import cells
-from .markdown import Table
-from .paper import TABLES, paper_sequence
-from .paper_tables import paper_table
-from .results import METRIC, METRICS
+from .paper import paper_ape, paper_sequence
+from .results import FAILED, METRIC, METRICS, NONE
 from .variants import DESCRIPTIONS
 
 COVERAGE = METRIC["coverage_percent"]
 
 
-def markdown_report(results, facts, figures):
-    """Returns the text of the report.
-
-    facts: pairs of a label and a text about the whole run; figures: picture paths relative to the
-    report, by heading.
-    """
+def markdown_report(results, facts):
+    """Returns the text of the report. `facts`: pairs of a label and a text about the whole run."""
     errors = [metric for metric in METRICS if metric.is_error]
     others = [metric for metric in METRICS if not metric.is_error and metric is not COVERAGE]
-    parts = ["# Odometry over a dataset", _facts(facts), _variants(results), _failures(results),
-             _not_compared(results), "## Accuracy", _ape_notes(results),
-             *(_metric_table(results, metric) for metric in errors), "## Start, speed and lines",
-             _time_notes(results),
-             *(_metric_table(results, metric) for metric in others),
-             _paper_part(results, _time_notes(results)), _pictures(figures)]
+    parts = ["# Odometry over a dataset", str(Table(["", ""], [list(fact) for fact in facts])),
+             str(Table(["variant", "what it is"],
+                       [[v, DESCRIPTIONS[v]] for v in results.variants])),
+             _reasons("Failed runs", [(r.run, r.failure) for r in results.all()]),
+             _reasons("Not compared with ground truth",
+                      [(r.run, r.not_compared) for r in results.all()]),
+             "## Accuracy", _ape_notes(results),
+             *(metric_table(results, metric) for metric in errors), _paper_part(results),
+             "## Start and speed", *(metric_table(results, metric) for metric in others)]
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
-def _metric_table(results, metric):
-    rows = [[sequence] + [cells.figure(results, metric, sequence, variant)
-                          for variant in results.variants] for sequence in results.sequences]
-    if all(cell in (cells.NONE, cells.FAILED) for row in rows for cell in row[1:]):
+def metric_table(results, metric):
+    """Returns one metric by sequence and variant, with means."""
+    rows = [[sequence] + [results.cell(metric, sequence, variant) for variant in results.variants]
+            for sequence in results.sequences]
+    if all(cell in (NONE, FAILED) for row in rows for cell in row[1:]):
         return f"### {metric.title}\n\nNo run has this figure."
     table = Table(["sequence"] + results.variants, rows)
     means, common = results.means(metric)
-    if len(results.cases()) > 1 and common:
-        table.rows.append([_mean_label(common, results)]
-                          + [cells.number(means.get(v), metric.decimals) for v in results.variants])
-        first = results.variants[0]
-        if metric.is_error and means.get(first):
-            table.rows.append([f"against {first}"]
-                              + [_change(means.get(v), means[first]) for v in results.variants])
+    cases = results.runs_per_variant
+    if cases > 1 and common:
+        label = "**mean**" + (f" of the {common} that all variants have" if common < cases else "")
+        table.rows.append([label] + [metric.text(means.get(v)) for v in results.variants])
+        reference = means.get(results.variants[0])
+        if metric.is_error and reference:
+            table.rows.append([f"against {results.variants[0]}"]
+                              + [_change(means.get(v), reference) for v in results.variants])
     return f"### {metric.title}\n\n{table}"
 
 
-def _mean_label(common, results):
-    if len(common) == len(results.cases()):
-        return "**mean**"
-    starts = " starts" if len(results.starts) > 1 else ""
-    return f"**mean** of the {len(common)}{starts} that all variants have"
+def _change(value, reference):
+    return NONE if value is None else f"{100 * (value / reference - 1):+.0f} %"
 
 
-def _facts(facts):
-    return str(Table(["", ""], [list(fact) for fact in facts]))
-
-
-def _variants(results):
-    return str(Table(["variant", "what it is"], [[v, DESCRIPTIONS[v]] for v in results.variants]))
-
-
-def _failures(results):
-    failed = [r for r in results.all() if r.failure is not None]
-    if not failed:
-        return f"All {len(results.all())} runs ended with a trajectory."
-    return (f"## Failed runs\n\n{len(failed)} of {len(results.all())}:\n\n"
-            + _reasons([(r.run, r.failure) for r in failed]))
-
-
-def _not_compared(results):
-    reasons = [(r.run, r.not_compared) for r in results.all() if r.not_compared is not None]
-    return reasons and "## Not compared with ground truth\n\n" + _reasons(reasons)
-
-
-def _reasons(reasons):
-    rows = [[run.sequence.name, run.variant, f"{run.start:g}", str(run.repetition), reason]
-            for run, reason in reasons]
-    return str(Table(["sequence", "variant", "start [s]", "repetition", "reason"], rows))
+def _reasons(heading, reasons):
+    rows = [[run.sequence.name, run.variant, f"{run.start:g}", reason]
+            for run, reason in reasons if reason is not None]
+    if not rows:
+        return ""
+    table = Table(["sequence", "variant", "start [s]", "reason"], rows)
+    return f"## {heading}\n\n{len(rows)} of {len(reasons)}:\n\n{table}"
 
 
 def _ape_notes(results):
     note = ("Poses as estimated at their time, no loop closure. APE after SE3 alignment without"
             " scale, with the coverage in brackets: the share of the ground truth's time that has a"
             " pose (a late start flatters the APE).")
-    if len(results.starts) > 1:
+    runs = results.runs_per_variant // len(results.sequences)
+    if runs > 1:
         note += (" Figures are mean ± standard deviation [minimum, maximum] over those of"
-                 f" {len(results.starts)} starts that have them.")
-    note += _step_notes(results)
-    shifts = [abs(r.evaluation.get("t_offset_s", 0.0)) for r in results.all() if r.evaluation]
-    if any(shifts):
-        note += (" Stamps are shifted by the `td` that each run ended with, by up to"
-                 f" {1000 * max(shifts):.2f} ms.")
-    if max(r.run.repetition for r in results.all()) > 1:
-        note += (" Repetitions count with their median, and in brackets with their minimum and"
-                 " maximum.")
-    return note
+                 f" {runs} runs that have them.")
+    return note + _step_notes(results) + _shift_notes(results)
+
+
+def _shift_notes(results):
+    largest = max((abs(r.evaluation.get("t_offset_s", 0.0)) for r in results.all()
+                   if r.evaluation), default=0.0)
+    if not largest:
+        return ""
+    return (" Stamps are shifted by the `td` that each run ended with, by up to"
+            f" {1000 * largest:.2f} ms.")
 
 
 def _step_notes(results):
@@ -119,40 +100,32 @@ def _step_notes(results):
             " leaves them out.")
 
 
-def _time_notes(results):
-    """Returns a warning if other work slowed down the runs."""
-    known = [(r.load, r.cores) for r in results.all() if None not in (r.load, r.cores)]
-    busy = [(load, cores) for load, cores in known if load > cores + 1]
-    if not busy:
+def _paper_part(results):
+    """Returns the APE of whole sequences of the paper beside its own."""
+    names = [name for name in results.sequences if paper_sequence(name) == name]
+    if not names or not results.whole:
         return ""
-    load, cores = max(busy)
-    return (f"**The times are too long:** {len(busy)} of {len(known)} runs shared their machine"
-            f" with other work (load average up to {load:.0f}, on {cores} cores).")
+    rows = [[name, *(f"{ape:.2f}" for ape in paper_ape(name).values()),
+             *(results.cell(METRIC["ape_m"], name, variant) for variant in results.variants)]
+            for name in names]
+    heading = ["sequence", *(f"paper: {column}" for column in paper_ape(names[0])),
+               *(f"ours: {variant}" for variant in results.variants)]
+    return ("### APE RMSE [m] beside the paper\n\nThe paper gives no coverage."
+            f"\n\n{Table(heading, rows)}")
 
 
-def _paper_part(results, time_notes):
-    tables = [paper_table(table, results) for table in TABLES]
-    if not any(paper_sequence(name) for name in results.sequences):
-        return "## Beside the paper\n\nNone of the sequences is one of the paper's."
-    return ("## Beside the paper\n\nThe paper's figures, and ours of the recordings whose name has"
-            " the name of its sequence. A part of a sequence, or a recording made after it, is"
-            " another task: only recordings with just that name, run uncut, have a difference to"
-            " the paper and count in averages. The paper gives no coverage; its times are of"
-            " another computer. Ours are means over the images that lines are extracted from; in"
-            " the others they are only followed.\n\n"
-            + "\n\n".join([time_notes] * bool(time_notes) + tables))
+def write_csv(folder, results):
+    """Writes all runs with all figures to runs.csv; returns its path."""
+    path = os.path.join(folder, "runs.csv")
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["sequence", "variant", "start_s", "repetition", "status", *METRIC])
+        for result in results.all():
+            run, status = result.run, result.failure or result.not_compared or "compared"
+            writer.writerow([run.sequence.name, run.variant, f"{run.start:g}", run.repetition,
+                             status, *(_plain(metric.value(result)) for metric in METRICS)])
+    return path
 
 
-def _pictures(figures):
-    if not figures:
-        return ""
-    parts = [f"### {heading}\n\n" + "\n".join(f"![{os.path.basename(p)}]({p})" for p in paths)
-             for heading, paths in figures.items()]
-    return ("## Figures\n\nOf each sequence: the trajectories colored by their error; the APE over"
-            " time with its RMSE, mean, median and standard deviation; the paths from above; the"
-            " translation per axis and its error. Of starts and repetitions, the one with the"
-            " median APE is drawn.\n\n" + "\n\n".join(parts))
-
-
-def _change(value, reference):
-    return cells.NONE if value is None else f"{100 * (value / reference - 1):+.0f} %"
+def _plain(value):
+    return "" if value is None else f"{value:.10g}"

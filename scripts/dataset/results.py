@@ -9,11 +9,13 @@ from typing import Callable, Optional
 
 from evaluate import evaluate
 from evaluation import steps
-from evaluation.csv_columns import read_columns
 from evaluation.run_results import check_whole, read_estimate
 from evaluation.trajectory import TrajectoryError, read_trajectory
 
 from .run import Run
+
+NONE = "–"
+FAILED = "**failed**"
 
 
 @dataclass
@@ -23,11 +25,8 @@ class RunResult:
     run: Run
     failure: Optional[str] = None
     summary: Optional[dict] = None  # summary.json
-    line_extraction_ms: Optional[float] = None
     evaluation: Optional[dict] = None  # see evaluate.py
     not_compared: Optional[str] = None
-    load: Optional[float] = None  # of the machine, in the last minute of the run
-    cores: Optional[int] = None  # of the machine, usable by the run
 
 
 @dataclass(frozen=True)
@@ -38,7 +37,7 @@ class Metric:
     title: str
     decimals: int
     of: Callable[[RunResult], float]
-    is_error: bool = False  # against ground truth, the smaller the better
+    is_error: bool = True  # against ground truth, the smaller the better
 
     def value(self, result):
         """Returns the figure, or None if the run has none."""
@@ -48,74 +47,33 @@ class Metric:
             return None
         return None if value is None else float(value)
 
-
-def _error(name, title, decimals, figure):
-    return Metric(name, title, decimals, lambda r: r.evaluation[figure]["rmse"], is_error=True)
-
-
-def _summary(name, title, decimals, *keys):
-    def value(result):
-        figure = result.summary
-        for key in keys:
-            figure = figure[key]
-        return figure
-    return Metric(name, title, decimals, value)
+    def text(self, value):
+        return NONE if value is None else f"{value:.{self.decimals}f}"
 
 
 METRICS = (
-    _error("ape_m", "APE RMSE [m]", 4, "ape_m"),
+    Metric("ape_m", "APE RMSE [m]", 4, lambda r: r.evaluation["ape_m"]["rmse"]),
     Metric("coverage_percent", "Coverage: share of the ground truth's time with a pose [%]", 1,
-           lambda r: 100 * r.evaluation["coverage"]),
-    _error("rpe_1m_m", "RPE over 1 m of the path, RMSE [m]", 4, "rpe_1m_m"),
-    _error("rpe_1s_m", "RPE over 1 s, RMSE [m]", 4, "rpe_1s_m"),
-    _error("rpe_1s_deg", "RPE over 1 s, RMSE [deg]", 3, "rpe_1s_deg"),
+           lambda r: 100 * r.evaluation["coverage"], is_error=False),
+    Metric("rpe_1m_m", "RPE over 1 m of the path, RMSE [m]", 4,
+           lambda r: r.evaluation["rpe_1m_m"]["rmse"]),
+    Metric("rpe_1s_deg", "RPE over 1 s, RMSE [deg]", 3,
+           lambda r: r.evaluation["rpe_1s_deg"]["rmse"]),
+    Metric("scale_percent", "Scale error of pieces of 5 s, mean of absolute errors [%]", 2,
+           lambda r: r.evaluation["local_scale"]["mean_absolute_error_percent"]),
     Metric("yaw_drift_deg", "Yaw error at the end, where there is none at the beginning [deg]", 2,
-           lambda r: r.evaluation["yaw_drift_deg"], is_error=True),
-    _summary("init_time_s", "Time from the first image to the first pose [s]", 2, "init_time_s"),
-    _summary("resets", "Restarts", 0, "resets"),
-    _summary("real_time_factor", "Real-time factor", 1, "real_time_factor"),
-    _summary("frame_ms", "All of a frame, mean [ms]", 2, "timing_ms", "total", "mean"),
-    _summary("line_front_end_ms", "Line front end, mean per frame [ms]", 2, "timing_ms",
-             "line_tracking", "mean"),
-    Metric("line_extraction_ms", "Line extraction, mean per extraction [ms]", 2,
-           lambda r: r.line_extraction_ms),
-    _summary("lines_in_window", "Line landmarks in the window, median over the frames", 0,
-             "counts_per_frame", "lines_in_window", "median"),
-    _summary("lines", "Line landmarks of the whole run", 0, "lines"),
-    _summary("merged_lines", "Merged line landmarks of the whole run", 0, "merged_lines"),
-    _summary("recognized_lines", "Recognized line landmarks of the whole run", 0,
-             "recognized_lines"),
-    Metric("manhattan_percent", "Share of the poses with a Manhattan frame [%]", 0,
-           lambda r: 100 * r.summary["manhattan_share"]),
-    Metric("load", "Load average of the machine in the last minute of the run", 1,
-           lambda r: r.load),
+           lambda r: r.evaluation["yaw_drift_deg"]),
+    Metric("init_time_s", "Time from the first image to the first pose [s]", 2,
+           lambda r: r.summary["init_time_s"], is_error=False),
+    Metric("resets", "Restarts", 0, lambda r: r.summary["resets"], is_error=False),
+    Metric("real_time_factor", "Real-time factor", 1, lambda r: r.summary["real_time_factor"],
+           is_error=False),
+    Metric("frame_ms", "All of a frame, mean [ms]", 2,
+           lambda r: r.summary["timing_ms"]["total"]["mean"], is_error=False),
+    Metric("frame_p99_ms", "All of a frame, 99th percentile [ms]", 2,
+           lambda r: r.summary["timing_ms"]["total"]["p99"], is_error=False),
 )
 METRIC = {metric.name: metric for metric in METRICS}
-
-
-@dataclass(frozen=True)
-class Spread:
-    """Spread of a figure over starts.
-
-    Each start counts once, with the median of its repetitions: these repeat the trajectory, so only
-    the times differ, and the median ignores disturbed ones.
-    """
-
-    mean: float
-    deviation: Optional[float]  # of the sample, over starts; None for a single one
-    low: float  # of all runs
-    high: float
-    starts: int  # number of starts that have the figure
-
-    @classmethod
-    def of(cls, values_by_start):
-        """Returns None if no start has the figure."""
-        if not values_by_start:
-            return None
-        medians = [statistics.median(values) for values in values_by_start.values()]
-        every = [value for values in values_by_start.values() for value in values]
-        deviation = statistics.stdev(medians) if len(medians) > 1 else None
-        return cls(statistics.mean(medians), deviation, min(every), max(every), len(medians))
 
 
 class Results:
@@ -129,59 +87,51 @@ class Results:
             self._cells.setdefault(key, []).append(result)
         self.sequences = list(dict.fromkeys(sequence for sequence, _ in self._cells))
         self.variants = list(dict.fromkeys(variant for _, variant in self._cells))
-        self.starts = sorted({result.run.start for result in self.all()})
-        self.whole = self.starts == [0.0] and duration is None
-
-    def runs(self, sequence, variant):
-        """Returns the runs from every start, with all repetitions."""
-        return self._cells.get((sequence, variant), [])
-
-    def lost_starts(self, sequence, variant):
-        """Returns the starts from which no run produced a trajectory."""
-        runs = self.runs(sequence, variant)
-        return sorted({r.run.start for r in runs}
-                      - {r.run.start for r in runs if r.failure is None})
+        self.runs_per_variant = len(self.all()) // len(self.variants)
+        self.whole = duration is None and not any(result.run.start for result in self.all())
 
     def all(self):
         return [result for cell in self._cells.values() for result in cell]
 
-    def spread(self, metric, sequence, variant):
-        return Spread.of(self._values_by_start(metric, sequence, variant))
-
-    def cases(self):
-        """Returns all pairs of a sequence and a start."""
-        return [(sequence, start) for sequence in self.sequences for start in self.starts]
+    def cell(self, metric, sequence, variant):
+        """Returns the mean over runs with standard deviation and range, the number of runs that
+        have the figure, failures, and for the APE the coverage."""
+        runs = self._cells.get((sequence, variant), [])
+        failed = sum(r.failure is not None for r in runs)
+        if runs and failed == len(runs):
+            return FAILED
+        values = self._values(metric, sequence, variant)
+        if not values:
+            return metric.text(None)
+        text = metric.text(statistics.mean(values))
+        if len(runs) > 1:
+            deviation = f" ± {metric.text(statistics.stdev(values))}" if len(values) > 1 else ""
+            text += f"{deviation} [{metric.text(min(values))}, {metric.text(max(values))}]"
+        if metric.name == "ape_m":
+            coverage = self._values(METRIC["coverage_percent"], sequence, variant)
+            text += f" ({statistics.mean(coverage):.0f} %)"
+        if len(runs) > 1:
+            text += f" over {len(values)} run" + "s" * (len(values) > 1)
+        return text + (f", {failed} of {len(runs)} failed" if failed else "")
 
     def means(self, metric):
-        """Returns, for each variant, the mean over cases of its medians over repetitions, for the
-        cases in which every variant has the figure; also returns these cases. Ignores variants
-        without any figure."""
-        medians = {variant: {(sequence, start): statistics.median(values)
-                             for sequence in self.sequences for start, values in
-                             self._values_by_start(metric, sequence, variant).items()}
-                   for variant in self.variants}
-        medians = {variant: by_case for variant, by_case in medians.items() if by_case}
-        common = [c for c in self.cases() if medians and all(c in m for m in medians.values())]
-        if not common:
-            return {}, []
-        return {variant: statistics.mean(by_case[c] for c in common)
-                for variant, by_case in medians.items()}, common
-
-    def _values_by_start(self, metric, sequence, variant):
-        """Returns the values of the repetitions that have the figure; omits starts without any."""
-        values = {}
-        for result in self.runs(sequence, variant):
+        """Returns the mean of each variant over the runs whose sequence and start have the figure
+        in every variant, and the number of these. Ignores variants without any figure."""
+        by_variant = {}
+        for result in self.all():
             value = metric.value(result)
             if value is not None:
-                values.setdefault(result.run.start, []).append(value)
-        return values
+                case = result.run.sequence.name, result.run.start, result.run.repetition
+                by_variant.setdefault(result.run.variant, {})[case] = value
+        if not by_variant:
+            return {}, 0
+        common = set.intersection(*(set(values) for values in by_variant.values()))
+        return {variant: statistics.mean(values[case] for case in common)
+                for variant, values in by_variant.items() if common}, len(common)
 
-    def typical(self, sequence, variant):
-        """Returns the run with the (lower) median APE, or None if none could be compared."""
-        ape = METRIC["ape_m"]
-        compared = [r for r in self.runs(sequence, variant) if ape.value(r) is not None]
-        compared.sort(key=ape.value)
-        return compared[(len(compared) - 1) // 2] if compared else None
+    def _values(self, metric, sequence, variant):
+        values = (metric.value(result) for result in self._cells.get((sequence, variant), []))
+        return [value for value in values if value is not None]
 
 
 class Evaluator:
@@ -203,50 +153,34 @@ class Evaluator:
         self._duration = float("inf") if duration is None else duration
 
     def result(self, run):
-        outcome = run.outcome()
-        if outcome["failure"] is not None:
-            return RunResult(run, failure=outcome["failure"])
+        failure = run.outcome()["failure"]
+        if failure is not None:
+            return RunResult(run, failure=failure)
         try:
-            result = RunResult(run, load=outcome.get("load_average"), cores=outcome.get("cores"),
-                               summary=_read_json(os.path.join(run.folder, "summary.json")),
-                               line_extraction_ms=_mean_line_extraction(run.folder))
-        except (KeyError, ValueError) as error:
+            with open(os.path.join(run.folder, "summary.json"), encoding="utf-8") as file:
+                result = RunResult(run, summary=json.load(file))
+        except ValueError as error:
             return RunResult(run, failure=f"damaged results ({error}); remove {run.folder} and run"
                                           " again")
-        if run.sequence.truth is None:
-            result.not_compared = "no ground truth"
-            return result
-        if run.sequence.name in self.unreadable:
-            result.not_compared = self.unreadable[run.sequence.name]
+        name = run.sequence.name
+        if name not in self._truths:
+            result.not_compared = self.unreadable.get(name, "no ground truth")
             return result
         try:
-            result.evaluation = self.compare(run, result.summary)[2]
+            result.evaluation = self.compare(run, result.summary)
         except TrajectoryError as error:
             result.not_compared = str(error)
         return result
 
     def compare(self, run, summary):
-        """Returns the paired trajectories and their figures, as evaluate() does. Raises
-        TrajectoryError."""
+        """Returns the figures of evaluate(). Raises TrajectoryError."""
         path = os.path.join(run.folder, "trajectory.tum")
         check_whole(path)  # otherwise init_time_s refers to another pose than the first
         estimate = read_estimate(path)
-        return evaluate(estimate, self.truth(run, summary, estimate))
-
-    def typical_pairs(self, results, sequence):
-        """Returns for each variant the run with the median APE, by a name with its start: the
-        aligned estimate and the truth at its poses."""
-        typical = [results.typical(sequence, variant) for variant in results.variants]
-        return {_label(result.run, results): self.compare(result.run, result.summary)[:2]
-                for result in typical if result}
-
-    def truth(self, run, summary, estimate):
-        """Returns the ground truth of the processed part, or None. `estimate` has all its poses, in
-        IMU time. Raises TrajectoryError."""
-        truth = self._truths.get(run.sequence.name)
-        if truth is None or (not run.start and self._duration == float("inf")):
-            return truth
-        return self._during_run(truth, estimate.stamps[0] - summary["init_time_s"])
+        truth = self._truths[run.sequence.name]
+        if run.start or self._duration < float("inf"):
+            truth = self._during_run(truth, estimate.stamps[0] - summary["init_time_s"])
+        return evaluate(estimate, truth)[2]
 
     def _during_run(self, truth, begin):
         """Returns the part of the ground truth that a run over a part of the recording can
@@ -255,19 +189,3 @@ class Evaluator:
         if inside.sum() < 3:
             raise TrajectoryError("no ground truth in the part of the recording that was run")
         return truth.select(inside)
-
-
-def _label(run, results):
-    return run.variant if results.starts == [0.0] else f"{run.variant}, from {run.start:g} s"
-
-
-def _mean_line_extraction(folder):
-    """Returns the mean over frames that extract lines [ms], or None; not every frame does."""
-    values = read_columns(os.path.join(folder, "timing.csv"))["line_detection"]
-    values = values[values > 0]
-    return float(values.mean()) if len(values) else None
-
-
-def _read_json(path):
-    with open(path, encoding="utf-8") as file:
-        return json.load(file)

@@ -1,22 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One run of run_offline: its input, its folder and its outcome."""
+"""Runs of run_offline: their input, their folders and their outcomes."""
 
+import concurrent.futures
 import contextlib
 import dataclasses
-import glob
 import hashlib
 import json
 import os
-import platform
 import re
 import shutil
 import signal
 import subprocess
+import threading
 import time
-import uuid
 from typing import Dict, Optional
 
-from .environment import usable_cores
 from .sequences import Sequence
 
 RESULTS = ("trajectory.tum", "timing.csv", "summary.json")
@@ -45,10 +43,9 @@ class Settings:
 class Run:
     """One repetition of a sequence with a variant of the configuration, from a start [s] on.
 
-    The folder OUTPUT/runs/SEQUENCE/VARIANT/REPETITION, or .../VARIANT/from_STARTs/REPETITION if the
-    run does not begin at the start of the recording, contains the files of run_offline, its
-    messages (run.log) and its outcome (run.json). A run in progress has a folder next to it, with a
-    suffix.
+    The folder OUTPUT/runs/SEQUENCE/VARIANT/from_STARTs_REPETITION contains the files of
+    run_offline, its messages (run.log) and its outcome (run.json). A run in progress writes to a
+    folder next to it.
     """
 
     def __init__(self, settings, fingerprint, sequence: Sequence, variant: str,
@@ -57,17 +54,13 @@ class Run:
         self.variant = variant
         self.start = start
         self.repetition = repetition
-        self._labels = [sequence.name, variant, *([f"from_{start}s"] if start else []),
-                        str(repetition)]
-        self.folder = os.path.join(settings.output, "runs", *self._labels)
+        labels = sequence.name, variant, f"from_{start}s_{repetition}"
+        self.name = " ".join(labels)
+        self.folder = os.path.join(settings.output, "runs", *labels)
         self._settings = settings
         self._overrides = {**settings.overrides, **overrides}
         self._identity = {**fingerprint, "start": start, "recording": _content(sequence),
                           "overrides": self._overrides}
-
-    @property
-    def name(self):
-        return " ".join(self._labels)
 
     def is_finished(self):
         """Returns whether an earlier run with the same settings left complete results."""
@@ -83,43 +76,34 @@ class Run:
         except (FileNotFoundError, json.JSONDecodeError):
             return None
 
-    def carry_out(self, session):
-        """Executes the run; returns its duration [s], with the outcome on disk.
-
-        Returns None, without an outcome, as soon as the file `session` has disappeared. An earlier
-        attempt whose worker was lost may still be writing, but is ignored: each attempt has its own
-        folder, which is renamed when it is complete.
-        """
-        for abandoned in glob.glob(glob.escape(self.folder) + ".*"):
-            shutil.rmtree(abandoned, ignore_errors=True)
-        if not os.path.exists(session):
-            return None
-        attempt = f"{self.folder}.{uuid.uuid4().hex[:8]}"
+    def carry_out(self, stop):
+        """Executes the run; returns its duration [s], with the outcome on disk. Leaves nothing if
+        the event `stop` is set before."""
+        attempt = self.folder + ".part"
+        shutil.rmtree(attempt, ignore_errors=True)
         os.makedirs(attempt)
         started = time.monotonic()
-        exit_code = self._run_program(attempt, session)
+        exit_code = self._run_program(attempt, stop)
         seconds = time.monotonic() - started
         if exit_code is None:
-            shutil.rmtree(attempt, ignore_errors=True)
-            return None
-        self._save_outcome(attempt, self._failure(attempt, exit_code), exit_code, seconds)
+            shutil.rmtree(attempt)
+            return seconds
+        outcome = {"failure": self._failure(attempt, exit_code), "exit_code": exit_code,
+                   "wall_time_s": seconds, "command": self._command(self.folder),
+                   "identity": self._identity}
+        with open(os.path.join(attempt, OUTCOME), "w", encoding="utf-8") as file:
+            json.dump(outcome, file, indent=2)
         shutil.rmtree(self.folder, ignore_errors=True)
         os.rename(attempt, self.folder)
         return seconds
 
-    def save_failure(self, reason):
-        """Saves the outcome of a run that could not be executed."""
-        os.makedirs(self.folder, exist_ok=True)
-        self._save_outcome(self.folder, reason, None, 0.0)
-
-    def _run_program(self, folder, session):
-        """Returns the exit code, or None if the run was stopped because `session` has
-        disappeared."""
+    def _run_program(self, folder, stop):
+        """Returns the exit code, or None if the run was stopped."""
         with open(os.path.join(folder, LOG), "wb") as log:
             # A separate process session, so that Ctrl-C reaches it through this program only.
             process = subprocess.Popen(self._command(folder), stdin=subprocess.DEVNULL, stdout=log,
                                        stderr=subprocess.STDOUT, start_new_session=True)
-        while os.path.exists(session):
+        while not stop.is_set():
             with contextlib.suppress(subprocess.TimeoutExpired):
                 return process.wait(PERIOD)
         _stop(process)
@@ -137,25 +121,31 @@ class Run:
             command += ["--set", f"{key}={value}"]
         return command
 
-    def _save_outcome(self, folder, failure, exit_code, seconds):
-        outcome = {"sequence": self.sequence.name, "variant": self.variant,
-                   "start": self.start, "repetition": self.repetition, "failure": failure,
-                   "exit_code": exit_code, "wall_time_s": seconds, "machine": platform.node(),
-                   "load_average": os.getloadavg()[0], "cores": usable_cores(),
-                   "command": self._command(self.folder), "identity": self._identity}
-        with open(os.path.join(folder, OUTCOME), "w", encoding="utf-8") as file:
-            json.dump(outcome, file, indent=2)
-
     def _failure(self, folder, exit_code):
         """Returns why there is no complete result, or None if there is one."""
         log = os.path.join(self.folder, LOG)  # its final place
         if exit_code < 0:
-            return f"ended by {_signal_name(-exit_code)}; see {log}"
+            return f"ended by {signal.Signals(-exit_code).name}; see {log}"
         if exit_code > 0:
             return (_last_error(os.path.join(folder, LOG))
                     or f"exit code {exit_code}; see {log}")
         missing = _missing_result(folder)
         return missing and f"no {missing} although it exited normally; see {log}"
+
+
+def run_all(runs, jobs, report):
+    """Executes runs, `jobs` at a time; calls report(run, duration [s]) as each ends. An exception,
+    such as that of Ctrl-C, stops them all before it goes on."""
+    stop = threading.Event()
+    with concurrent.futures.ThreadPoolExecutor(jobs) as executor:
+        pending = {executor.submit(run.carry_out, stop): run for run in runs}
+        try:
+            for future in concurrent.futures.as_completed(pending):
+                report(pending[future], future.result())
+        finally:
+            stop.set()
+            for future in pending:
+                future.cancel()
 
 
 def _missing_result(folder):
@@ -181,13 +171,6 @@ def _content(sequence):
 def _sha256(path):
     with open(path, "rb") as file:
         return hashlib.sha256(file.read()).hexdigest()
-
-
-def _signal_name(number):
-    try:
-        return signal.Signals(number).name
-    except ValueError:
-        return f"signal {number}"
 
 
 def _last_error(log):

@@ -4,12 +4,13 @@
 import os
 
 from . import metrics
+from .markdown import Table
 
-HEADING = ("estimate", "APE [m]", "coverage", "first pose [s]", "common APE [m]", "scale [%]")
+HEADING = ["estimate", "APE [m]", "coverage [%]", "first pose [s]", "common APE [m]", "scale [%]"]
 
 
 def side_by_side(estimates, truth, align, max_diff, max_gap):
-    """Returns a text table. `estimates`: trajectories by file, in the order of the rows.
+    """Returns a table. `estimates`: trajectories by file, in the order of the rows.
 
     APE is the RMSE after alignment. The common APE is that over the time for which all estimates
     have poses, because a late start flatters the APE. Scale is the error of the estimate's size
@@ -17,19 +18,16 @@ def side_by_side(estimates, truth, align, max_diff, max_gap):
     """
     begin = max(estimate.stamps[0] for estimate in estimates.values())
     end = min(estimate.stamps[-1] for estimate in estimates.values())
-    rows = [HEADING]
+    rows = []
     for file, estimate in estimates.items():
         common = estimate.select((estimate.stamps >= begin) & (estimate.stamps <= end))
         pair = metrics.associate(estimate, truth, max_diff)
-        rows.append((os.path.relpath(file), f"{_ape(pair, align):.4f}",
-                     f"{100 * metrics.coverage(estimate, truth, max_gap):.1f} %",
+        rows.append([os.path.relpath(file), f"{_ape(pair, align):.4f}",
+                     f"{100 * metrics.coverage(estimate, truth, max_gap):.1f}",
                      f"{estimate.stamps[0] - truth.stamps[0]:.2f}",
                      f"{_ape(metrics.associate(common, truth, max_diff), align):.4f}",
-                     f"{100 * (metrics.scale(*pair) - 1):+.2f}"))
-    widths = [max(len(row[column]) for row in rows) for column in range(len(HEADING))]
-    return "\n".join("  ".join([row[0].ljust(widths[0]),
-                                *(text.rjust(width) for text, width in zip(row[1:], widths[1:]))])
-                     for row in rows)
+                     f"{100 * (metrics.scale(*pair) - 1):+.2f}"])
+    return str(Table(HEADING, rows))
 
 
 def _ape(pair, align):

@@ -65,8 +65,8 @@ class Trajectory:
         gaps = self.stamps[after] - self.stamps[before]
         share = np.clip((stamps - self.stamps[before]) / gaps, 0, 1)[:, None]
         positions = (1 - share) * self.positions[before] + share * self.positions[after]
-        quaternions = _slerp(_quaternions(self.rotations[before]),
-                             _quaternions(self.rotations[after]), share)
+        quaternions = _slerp(quaternions_of(self.rotations[before]),
+                             quaternions_of(self.rotations[after]), share)
         return replace(self, stamps=stamps, positions=positions, rotations=_rotations(quaternions))
 
     def transformed(self, rotation, translation):
@@ -85,7 +85,7 @@ def with_rolled_quaternions(trajectory, places):
     """Reinterprets quaternions that were read in another order than that of the file: `places` is
     -1 for files with w x y z that were read as x y z w, and 1 for the opposite."""
     return replace(trajectory, rotations=_rotations(
-        np.roll(_quaternions(trajectory.rotations), places, axis=1)))
+        np.roll(quaternions_of(trajectory.rotations), places, axis=1)))
 
 
 def read_trajectory(path, least=LEAST_POSES):
@@ -121,13 +121,6 @@ def read_truth(path):
     for file in filter(os.path.isfile, files):
         return read_trajectory(file)
     raise TrajectoryError(f"{path}: a folder without {files[0]}; give a TUM file or EuRoC csv")
-
-
-def format_tum(trajectory):
-    """Returns the trajectory as the text of a TUM file, with timestamps to the nanosecond."""
-    rows = np.column_stack([trajectory.positions, _quaternions(trajectory.rotations)])
-    return "".join(f"{stamp:.9f} " + " ".join(f"{value:.9f}" for value in row) + "\n"
-                   for stamp, row in zip(trajectory.stamps, rows))
 
 
 def _parse_row(line, where, previous_stamp):
@@ -197,7 +190,7 @@ def _rotations(quaternions):
     ], axis=1).reshape(-1, 3, 3)
 
 
-def _quaternions(rotations):
+def quaternions_of(rotations):
     """Returns unit quaternions (n, 4) in the order x y z w, with w >= 0, of rotation matrices (n,
     3, 3).
 

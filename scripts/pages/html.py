@@ -12,28 +12,15 @@ border-bottom: 1px solid #ddd } img { max-width: 100% } input[type=range] { widt
 """
 
 
-def page(title, sections, script):
-    """Returns the text of a page. `sections`: pairs of a heading and its contents in HTML;
-    `script`: the script element of plotly, from embedded_plotly() or linked_plotly()."""
+def page(title, sections):
+    """Returns the text of a page with the library in it. `sections`: pairs of a heading and its
+    contents in HTML. Raises ImportError without plotly."""
+    from plotly.offline import get_plotlyjs  # only here, since loading takes a second
     parts = [f"<h2>{html.escape(heading)}</h2>\n{contents}" for heading, contents in sections]
     return ("<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
-            f"<title>{html.escape(title)}</title><style>{STYLE}</style>\n{script}</head>\n"
+            f"<title>{html.escape(title)}</title><style>{STYLE}</style>\n"
+            f"<script>{get_plotlyjs()}</script></head>\n"
             f"<body><h1>{html.escape(title)}</h1>\n" + "\n".join(parts) + "\n</body></html>\n")
-
-
-def plotly_source():
-    """Returns the library itself, as JavaScript. Raises ImportError if it is not installed."""
-    from plotly.offline import get_plotlyjs  # only here, since loading takes a second
-    return get_plotlyjs()
-
-
-def embedded_plotly():
-    return f"<script>{plotly_source()}</script>"
-
-
-def linked_plotly(path):
-    """`path` is that of a file with plotly_source(), relative to the page."""
-    return f"<script src='{html.escape(path, quote=True)}'></script>"
 
 
 def figure(name, contents, height=450):
@@ -43,19 +30,14 @@ def figure(name, contents, height=450):
             " {responsive: true, displaylogo: false})</script>")
 
 
-def table(rows, heading=()):
-    """Returns a table; cells are HTML, see text()."""
-    lines = ["<tr>" + "".join(f"<th>{cell}</th>" for cell in heading) + "</tr>"] * bool(heading)
-    lines += ["<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows]
+def table(rows):
+    """Returns a table; cells are plain text."""
+    lines = ["<tr>" + "".join(f"<td>{text(cell)}</td>" for cell in row) + "</tr>" for row in rows]
     return "<table>" + "\n".join(lines) + "</table>"
 
 
 def text(value):
     return html.escape(str(value))
-
-
-def link(path, label):
-    return f"<a href='{html.escape(path, quote=True)}'>{text(label)}</a>"
 
 
 def as_json(value):

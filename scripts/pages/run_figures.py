@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The figures of a run's page, in plotly's format."""
 
-import itertools
-
 import numpy as np
 
 from evaluation.metrics import position_errors
 
 ESTIMATE_COLOR, TRUTH_COLOR, LOOP_COLOR = "#d0008f", "#222222", "#ff9a00"
-PATH_COLORS = (ESTIMATE_COLOR, "#1f77b4", "#2ca02c", "#ff7f0e", "#9467bd", "#8c564b", "#17becf",
-               "#bcbd22", "#7f7f7f")
 TRUTH = "ground truth"
 POINT_COLOR = "#9aa5b1"
 LINE_COLORS = {"along x": "#dc2828", "along y": "#28a028", "along z": "#325ae6", "free": "#8c8c8c"}
@@ -41,25 +37,20 @@ def scene_figure(trajectories, points=NOTHING, lines=None, loops=NOTHING):
         ends = ends[inside(ends).all(axis=1)]
         data.append(_segments(f"lines {axis}", ends, LINE_COLORS[axis], 3))
     data.append(_segments("loops", loops, LOOP_COLOR, 4))
-    colors = itertools.cycle(PATH_COLORS)
     data += [_spatial(name, positions, mode="lines", line={
-        "color": TRUTH_COLOR if name == TRUTH else next(colors), "width": 5})
+        "color": TRUTH_COLOR if name == TRUTH else ESTIMATE_COLOR, "width": 5})
              for name, positions in trajectories.items()]
     return {"data": [trace for trace in data if trace["x"]],
             "layout": {"scene": _first_view(points, paths, low, high),
                        "margin": {"l": 0, "r": 0, "t": TOOLBAR, "b": 0}}}
 
 
-def error_figure(pairs):
-    """Returns the APE over time. `pairs`, by name: an aligned estimate and the truth at its
-    poses."""
-    begin = min(truth.stamps[0] for _, truth in pairs.values())
-    data = []
-    for (name, (estimate, truth)), color in zip(pairs.items(), itertools.cycle(PATH_COLORS)):
-        errors = position_errors(estimate, truth)
-        label = f"{name}, RMSE {np.sqrt(np.mean(errors ** 2)):.4f} m"
-        data.append(_curve(label, estimate.stamps - begin, errors, color))
-    return _over_time(data, "APE [m]")
+def error_figure(estimate, truth):
+    """Returns the APE over time of an aligned estimate and the truth at its poses."""
+    errors = position_errors(estimate, truth)
+    label = f"APE, RMSE {np.sqrt(np.mean(errors ** 2)):.4f} m"
+    return _over_time([_curve(label, estimate.stamps - truth.stamps[0], errors, ESTIMATE_COLOR)],
+                      "APE [m]")
 
 
 def columns_figure(frames, columns, title):

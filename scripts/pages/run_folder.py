@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The files of run_offline in a result folder, as arrays."""
 
+import csv
 import glob
 import json
 import os
@@ -10,7 +11,6 @@ from typing import Dict
 
 import numpy as np
 
-from evaluation.csv_columns import read_columns
 from evaluation.loops import Loops, read_loops
 from evaluation.run_results import read_estimate
 from evaluation.trajectory import Trajectory, TrajectoryError
@@ -43,7 +43,7 @@ class RunFolder:
         try:
             with open(os.path.join(path, "summary.json"), encoding="utf-8") as file:
                 summary = dict(json.load(file))
-            frames = read_columns(os.path.join(path, "timing.csv"))
+            frames = _read_columns(os.path.join(path, "timing.csv"))
         except (OSError, TypeError, ValueError) as error:
             raise TrajectoryError(f"{path}: not the folder of a finished run ({error})") from None
         trajectory = read_estimate(os.path.join(path, TRAJECTORY))
@@ -54,6 +54,29 @@ class RunFolder:
                    _read_ply(os.path.join(path, "map.ply"))[0],
                    _by_axis(*_read_ply(os.path.join(path, "lines.ply"))[1:]),
                    loops, len(accepted) - len(loops), _find_images(path, first_image))
+
+
+def _read_columns(path):
+    """Returns the columns by heading. Raises ValueError with the line if there are no rows or one
+    is truncated, as in the files of an unfinished run."""
+    rows = []
+    with open(path, encoding="utf-8", newline="") as file:
+        reader = csv.reader(file)
+        try:
+            names = next(reader, [])
+            for row in filter(None, reader):
+                rows.append(_numbers(row, len(names)))
+        except (ValueError, csv.Error) as error:
+            raise ValueError(f"{path}:{reader.line_num}: {error}") from None
+    if not rows:
+        raise ValueError(f"{path}: no rows")
+    return dict(zip(names, np.array(rows).T))
+
+
+def _numbers(row, columns):
+    if len(row) != columns:
+        raise ValueError(f"{len(row)} columns, expected {columns}")
+    return [float(word) for word in row]
 
 
 def _read_ply(path):

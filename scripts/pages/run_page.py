@@ -30,18 +30,17 @@ show(0);
 </script>"""
 
 
-def run_page(run, truth, script, reason=""):
-    """Returns the text of the page. run: a RunFolder; truth: a Trajectory or None; script: see
-    html.page(). If the two cannot be compared, the page tells why and omits the truth; `reason`
-    tells why the truth is None although there is ground truth."""
-    pair, figures, note = _compare(run, truth, reason)
-    table = html.table([[html.text(cell) for cell in row] for row in rows(run.summary, figures)])
+def run_page(run, truth):
+    """Returns the text of the page. run: a RunFolder; truth: a Trajectory or None. If the two
+    cannot be compared, the page tells why and omits the truth."""
+    pair, figures, note = _compare(run, truth)
+    table = html.table(rows(run.summary, figures))
     left_out = run.loops_left_out and f"Loops to an earlier map, excluded: {run.loops_left_out}"
     scene = html.figure("scene", _scene(run, truth, pair), 650)
     sections = [("Run", table + _paragraph(note)),
                 ("Trajectory and map", scene + _paragraph(left_out))]
     if pair:
-        sections.append(("Error", html.figure("error", run_figures.error_figure({"APE": pair}))
+        sections.append(("Error", html.figure("error", run_figures.error_figure(*pair))
                          + f"<pre>{html.text(format_report(figures))}</pre>"))
     for name, columns, title in (("counts", run_figures.COUNTS, "count"),
                                  ("timings", run_figures.STAGES, "time [ms]")):
@@ -53,28 +52,24 @@ def run_page(run, truth, script, reason=""):
                          html.figure("rings", run_figures.rings_figure(rings))))
     if run.images:
         sections.append(("Tracks", _slider(run.images)))
-    return html.page(os.path.basename(os.path.abspath(run.path)), sections, script)
+    return html.page(os.path.basename(os.path.abspath(run.path)), sections)
 
 
 def _paragraph(note):
     return f"<p>{html.text(note)}</p>" if note else ""
 
 
-def _compare(run, truth, reason):
+def _compare(run, truth):
     """Returns the aligned estimate and the truth at its poses, their figures, and the reason if
     there are none."""
     if truth is None:
-        return None, None, _not_compared(reason) if reason else "No ground truth."
+        return None, None, "No ground truth."
     try:
         check_whole(os.path.join(run.path, TRAJECTORY))
         *pair, figures = evaluate(run.trajectory, truth)
         return pair, figures, ""
     except TrajectoryError as error:
-        return None, None, _not_compared(error)
-
-
-def _not_compared(reason):
-    return f"Not compared with the ground truth: {reason}"
+        return None, None, f"Not compared with the ground truth: {error}"
 
 
 def _scene(run, truth, pair):

@@ -15,6 +15,10 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "test" / "testing"))
+
+import pair_flight  # noqa: E402
+
 REFERENCE = ROOT / "config" / "reference.yaml"
 SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
 
@@ -51,7 +55,7 @@ VALUES = {"num_of_cam": None, "image_topic": None, "imu_topic": None, "depth_top
           "imu_noise_model": "vins", "fisheye_mask": None, "depth_max": 2.5, "td": 0.004,
           "estimate_extrinsic": 1, "g_norm": 9.8, "window_size": 8, "rolling_shutter_tr": 0.015,
           "line_merge_distance": 0.5, "line_outlier_distance": 0.5,
-          "line_merge_image_distance": 0.5}
+          "line_merge_image_distance": 0.5, "klt_levels": 1}
 KEY = re.compile(r"^( *)(\w+):(?: +(\S+))? *(?:#(.*))?$")
 
 
@@ -93,8 +97,9 @@ class Keys(unittest.TestCase):
         folder = pathlib.Path(cls.folder.name)
         cls.config = folder / "config.yaml"
         text = REFERENCE.read_text(encoding="utf-8")
-        cls.config.write_text(text.replace('depth_topic: ""', 'depth_topic: "/depth"', 1)
-                              .replace("fisheye: 0", "fisheye: 1", 1), encoding="utf-8")
+        text = text.replace('depth_topic: ""', 'depth_topic: "/depth"', 1)
+        text = text.replace("fisheye: 0", "fisheye: 1", 1)
+        cls.config.write_text(pair_flight.halve_images(text), encoding="utf-8")
         cls.flight = folder / "flight"
         command = [SIMULATE, "--asl", cls.flight, "--config", cls.config, *FLIGHT]
         subprocess.run([str(word) for word in command], stderr=subprocess.DEVNULL, check=True)

@@ -24,7 +24,7 @@ from evaluation.trajectory import read_trajectory  # noqa: E402
 
 SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
 SECONDS = 8
-LAST_ROW = 40  # of camera 2, before it stops or freezes
+LAST_ROW = 20  # of camera 2, before it stops or freezes
 MS = 1_000_000  # [ns]
 
 
@@ -111,8 +111,8 @@ class RigFaults(unittest.TestCase):
         self.assert_harmless()
 
     def test_images_of_another_size(self):
-        self.replace_images("cam2", lambda image: image.resize((376, 240)))
-        self.assert_named(r"camera ?2.*376 x 240 px.*752 x 480")
+        self.replace_images("cam2", lambda image: image.resize((188, 120)))
+        self.assert_named(r"camera ?2.*188 x 120 px.*376 x 240")
         self.assert_harmless()
 
     def test_stamps_that_are_off(self):

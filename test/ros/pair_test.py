@@ -22,7 +22,6 @@ import pair_flight  # noqa: E402
 NODES, _, FOLDER = arguments(__doc__)
 NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator")
 SECONDS = 6
-RATE = 0.5  # of the recording: two image topics load a busy machine
 
 
 def setUpModule():
@@ -52,8 +51,7 @@ class PairTest(unittest.TestCase):
         for name in NAMES:
             self.processes.start(name, [NODES / name, f"_config_file:={config}"])
             self.listener.wait_for_message(name, "")
-        self.processes.start("player",
-                             ["rosbag", "play", "--delay", "1", "--rate", str(RATE), bag])
+        self.processes.start("player", ["rosbag", "play", "--delay", "1", bag])
 
     def assert_used(self, key, *channels):
         self.listener.wait_for_value("vins_estimator", key,

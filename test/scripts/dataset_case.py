@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Test fixture that runs scripts/run_dataset.py with fake_run_offline.py instead of run_offline."""
 
-import contextlib
 import csv
 import glob
-import io
 import os
 import shutil
 import sys
 import time
-from types import SimpleNamespace
 
-from fake_run_offline import flight, write_tum
-from folder_case import FolderTest
+import numpy as np
+
+import fake_run_offline
+from fake_run_offline import write_tum
+from folder_case import FolderTest, call
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SCRIPTS = os.path.join(HERE, "..", "..", "scripts")
@@ -20,6 +20,11 @@ RUN_DATASET = os.path.join(SCRIPTS, "run_dataset.py")
 
 sys.path.append(SCRIPTS)
 import run_dataset  # noqa: E402
+
+
+def flight(**options):
+    """Returns timestamps [s] and positions (n, 3) [m] of all recordings."""
+    return tuple(np.array(values) for values in fake_run_offline.flight(**options))
 
 
 class DatasetTest(FolderTest):
@@ -42,16 +47,10 @@ class DatasetTest(FolderTest):
                 "--run-offline", self.program, "--config", self.path("config.yaml"), *arguments]
 
     def call(self, *arguments, exit_code=0):
-        """Calls the script in this process, since loading its libraries takes most of a call."""
-        stdout, stderr = io.StringIO(), io.StringIO()
         words = self.command(*arguments)
-        with contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
-            try:
-                code = run_dataset.main(words[words.index(RUN_DATASET) + 1:])
-            except SystemExit as end:  # of the parser of arguments
-                code = end.code
-        self.assertEqual(code, exit_code, stderr.getvalue())
-        return SimpleNamespace(stdout=stdout.getvalue(), stderr=stderr.getvalue())
+        result = call(run_dataset.main, *words[words.index(RUN_DATASET) + 1:])
+        self.assertEqual(result.returncode, exit_code, result.stderr)
+        return result
 
     def calls(self):
         """Returns the arguments of all runs so far."""
@@ -62,14 +61,14 @@ class DatasetTest(FolderTest):
             return []
 
     def hanging_run(self):
-        """Waits until a run hangs; returns its process id and that of its parent."""
+        """Waits until a run hangs; returns its process id."""
         deadline = time.monotonic() + 120
         while time.monotonic() < deadline:
             for path in glob.glob(os.path.join(self.output, "runs", "*", "*", "*", "pid")):
                 with open(path, encoding="utf-8") as file:
                     text = file.read()
                 if text.endswith("\n"):
-                    return [int(word) for word in text.split()]
+                    return int(text)
             time.sleep(0.02)
         self.fail("no run hangs")
         return None
@@ -78,6 +77,6 @@ class DatasetTest(FolderTest):
         with open(os.path.join(self.output, "report.md"), encoding="utf-8") as file:
             return file.read()
 
-    def rows(self, name="runs.csv"):
-        with open(os.path.join(self.output, name), encoding="utf-8") as file:
+    def rows(self):
+        with open(os.path.join(self.output, "runs.csv"), encoding="utf-8") as file:
             return list(csv.DictReader(file))

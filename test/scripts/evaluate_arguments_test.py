@@ -2,18 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests which files and numbers scripts/evaluate.py accepts as arguments."""
 
-import contextlib
-import io
 import os
 import unittest
 
-from known_flight import flight  # first: it names the folder
+from known_flight import flight, format_tum  # first: it names the folder
 from evaluate import main, parse_arguments
-from evaluation.trajectory import TRUTH_IN_FOLDER, TrajectoryError, format_tum, read_truth
-from refusal_case import RefusalTest
+from evaluation.trajectory import TRUTH_IN_FOLDER, TrajectoryError, read_truth
+from folder_case import FolderTest, call
 
 
-class Folders(RefusalTest):
+class Folders(FolderTest):
     def setUp(self):
         super().setUp()
         self.file = self.write("flight.tum", format_tum(flight()))
@@ -23,9 +21,7 @@ class Folders(RefusalTest):
         for folder in ("MH_01_easy", os.path.join("MH_01_easy", "mav0")):
             path = self.path(folder)
             self.assertEqual(len(read_truth(path)), len(flight()))
-            with contextlib.redirect_stdout(io.StringIO()) as output:
-                self.assertEqual(main([self.file, path]), 0)
-            self.assertIn("coverage 100.0 %", output.getvalue())
+            self.assertIn("coverage 100.0 %", call(main, self.file, path).stdout)
 
     def test_other_folders_are_said_to_be_folders(self):
         self.assert_refused(main, f"{self.folder}: a folder; give a file in it, such as"
@@ -39,9 +35,9 @@ class Folders(RefusalTest):
 
 class Seconds(unittest.TestCase):
     def assert_refused(self, message, *arguments):
-        with contextlib.redirect_stderr(io.StringIO()) as errors, self.assertRaises(SystemExit):
-            parse_arguments(["a.tum", "b.tum", *arguments])
-        self.assertIn(message, errors.getvalue())
+        result = call(parse_arguments, "a.tum", "b.tum", *arguments)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn(message, result.stderr)
 
     def test_what_is_none_is_refused(self):
         for option in ("--max-diff", "--max-gap", "--nees-after"):

@@ -4,18 +4,20 @@
 
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
 
 import numpy as np
 
+from folder_case import call
+from known_flight import format_tum
+
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.path.insert(0, str(SCRIPTS))
-from evaluate_loops import evaluate_loops  # noqa: E402
+from evaluate_loops import evaluate_loops, main  # noqa: E402
 from evaluation.loops import Loops, closed_share, loop_errors, revisits  # noqa: E402
-from evaluation.trajectory import RESTART, Trajectory, format_tum  # noqa: E402
+from evaluation.trajectory import RESTART, Trajectory  # noqa: E402
 
 START = 1403636580.0  # [s], as large as real timestamps
 ROUND = 20.0  # [s]
@@ -188,7 +190,7 @@ class Folder(unittest.TestCase):
             result = evaluate_loops(self.folder, self.folder / "truth.tum")
             self.assertEqual((result["loops"], result["loops_left_out"]), (1, 1))
             self.assertEqual(result["false_loops"], 0)
-        run = self.run_script(self.folder, self.folder / "truth.tum")
+        run = call(main, self.folder, self.folder / "truth.tum")
         self.assertIn("excluded: 1 to poses that are not in trajectory.tum", run.stdout)
 
     def test_leaves_out_what_has_no_truth(self):
@@ -198,7 +200,7 @@ class Folder(unittest.TestCase):
         result = evaluate_loops(self.folder, self.folder / "truth.tum")
         self.assertEqual((result["loops"], result["loops_without_truth"]), (0, 1))
         self.assertEqual(result["false_loops"], 0)
-        run = self.run_script(self.folder, self.folder / "truth.tum")
+        run = call(main, self.folder, self.folder / "truth.tum")
         self.assertIn("excluded: 1 where the ground truth has a gap", run.stdout)
 
     def test_loops_to_another_recording_close_nothing(self):
@@ -211,7 +213,7 @@ class Folder(unittest.TestCase):
     def test_ground_truth_of_another_time(self):
         self.write_loops(self.row("accepted"))
         self.write("other.tum", self.truth.shifted(1000.0))
-        run = self.run_script(self.folder, self.folder / "other.tum")
+        run = call(main, self.folder, self.folder / "other.tum")
         self.assertEqual(run.returncode, 1)
         for words in ("no overlap in time", "trajectory.tum", "other.tum"):
             self.assertIn(words, run.stderr)
@@ -224,20 +226,20 @@ class Folder(unittest.TestCase):
         rows = format_tum(self.truth).splitlines(keepends=True)
         rows.insert(100, RESTART + ": lost\n")
         (self.folder / "trajectory_final.tum").write_text("".join(rows), encoding="utf-8")
-        run = self.run_script(self.folder, self.folder / "truth.tum")
+        run = call(main, self.folder, self.folder / "truth.tum")
         for words in (r"coverage 100.0 %  1 world  odometry", r"coverage  49.9 %  1 world  map, ",
                       r"coverage 100.0 %  2 worlds  map, as known in the end",
                       "APE over several world frames means little"):
             self.assertRegex(run.stdout, words)
         self.write("trajectory_final.tum", self.truth)
         self.assertNotIn("means little",
-                         self.run_script(self.folder, self.folder / "truth.tum").stdout)
+                         call(main, self.folder, self.folder / "truth.tum").stdout)
 
     def test_a_place_that_is_never_found(self):
         self.write_loops(self.row("accepted"))
         for poses, words in ((0, "time: no pose in the map"), (2, "2 poses in the map, too few")):
             self.write("trajectory_map.tum", self.truth.select(slice(0, poses)))
-            run = self.run_script(self.folder, self.folder / "truth.tum")
+            run = call(main, self.folder, self.folder / "truth.tum")
             self.assertEqual(run.returncode, 0, run.stderr)
             self.assertIn("1 loops, 0 false", run.stdout)
             self.assertIn(words, run.stdout)
@@ -248,7 +250,7 @@ class Folder(unittest.TestCase):
 
     def test_no_loops_have_no_largest_error(self):
         self.write_loops(self.row("pose"))
-        run = self.run_script(self.folder, self.folder / "truth.tum")
+        run = call(main, self.folder, self.folder / "truth.tum")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("no loops to compare\n", run.stdout)
         self.assertNotIn("largest error", run.stdout)
@@ -268,34 +270,29 @@ class Folder(unittest.TestCase):
 
     def test_time_offset_of_the_run(self):
         self.write_run_with_time_offset(0.05)
-        run = self.run_script(self.folder, self.folder / "truth.tum")
+        run = call(main, self.folder, self.folder / "truth.tum")
         self.assertIn("stamps of the run shifted by +50.00 ms", run.stdout)
         result = evaluate_loops(self.folder, self.folder / "truth.tum")
         self.assertEqual((result["loops"], result["t_offset_s"]), (1, 0.05))
         self.assertLess(result["largest_error_m"], 1e-5)
         self.assertLess(result["ape_m"]["trajectory_final.tum"], 1e-6)
-        run = self.run_script(self.folder, self.folder / "truth.tum", "--t-offset", "0")
+        run = call(main, self.folder, self.folder / "truth.tum", "--t-offset", "0")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertNotIn("shifted", run.stdout)
         result = evaluate_loops(self.folder, self.folder / "truth.tum", t_offset=0.0)
         self.assertGreater(result["largest_error_m"], 0.02)
         self.assertGreater(result["ape_m"]["trajectory_final.tum"], 0.01)
 
-    def run_script(self, *arguments):
-        return subprocess.run(["/usr/bin/python3", SCRIPTS / "evaluate_loops.py", *arguments],
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8",
-                              check=False)
-
     def test_prints_and_writes_the_figures(self):
         self.write_loops(self.row("accepted", 0.1))
         json_file = self.folder / "loops.json"
-        run = self.run_script(self.folder, self.folder / "truth.tum", "--json", json_file)
+        run = call(main, self.folder, self.folder / "truth.tum", "--json", json_file)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("1 loops, 0 false", run.stdout)
         self.assertEqual(json.loads(json_file.read_text(encoding="utf-8"))["loops"], 1)
 
     def test_says_what_is_missing(self):
-        run = self.run_script(self.folder, self.folder / "truth.tum")
+        run = call(main, self.folder, self.folder / "truth.tum")
         self.assertEqual(run.returncode, 1)
         self.assertIn("loops.csv", run.stderr)
         self.assertEqual(run.stderr.count("\n"), 1)

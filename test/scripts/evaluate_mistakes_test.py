@@ -2,19 +2,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests the messages of scripts/evaluate.py on unsuitable files."""
 
-import contextlib
-import io
 import unittest
 
 import numpy as np
 
-from known_flight import START, flight, moved, rotation  # first: it names the folder
+from known_flight import START, flight, format_tum, moved, rotation  # first: it names the folder
 from evaluate import main
-from evaluation.trajectory import format_tum, read_trajectory
-from refusal_case import RefusalTest
+from evaluation.trajectory import read_trajectory
+from folder_case import FolderTest, call
 
 
-class MistakeTest(RefusalTest):
+class MistakeTest(FolderTest):
     def setUp(self):
         super().setUp()
         self.truth = self.write("truth.tum", format_tum(flight(rate=200.0)))
@@ -35,10 +33,9 @@ class MistakeTest(RefusalTest):
 
     def messages(self, *arguments):
         """Returns the stderr output of a successful call."""
-        with contextlib.redirect_stdout(io.StringIO()), \
-                contextlib.redirect_stderr(io.StringIO()) as errors:
-            self.assertEqual(main(list(arguments)), 0)
-        return errors.getvalue()
+        result = call(main, *arguments)
+        self.assertEqual(result.returncode, 0)
+        return result.stderr
 
 
 class Units(MistakeTest):

@@ -2,22 +2,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of scripts/evaluate.py on cases with known results."""
 
-import io
 import json
 import os
-import subprocess
-import sys
 import tempfile
 import unittest
-import zipfile
 
 import numpy as np
 
-from known_flight import SCRIPTS, START, flight, moved, rotation  # first: it names the folder
-from evaluate import error_statistics, evaluate, format_report, parse_arguments
+from known_flight import START, flight, format_tum, moved, rotation  # first: it names the folder
+from evaluate import error_statistics, evaluate, format_report, main, parse_arguments
 from evaluation import evo_backend, metrics
-from evaluation.trajectory import Trajectory, TrajectoryError, format_tum, read_trajectory
-from folder_case import FolderTest
+from evaluation.trajectory import Trajectory, TrajectoryError, read_trajectory
+from folder_case import FolderTest, call
 
 
 class AbsoluteError(unittest.TestCase):
@@ -231,23 +227,12 @@ class CommandLine(FolderTest):
             text += separator.join([stamp] + [f"{v:.12f}" for v in numbers + extra]) + "\n"
         return text
 
-    def run_script(self, *arguments):
-        command = [sys.executable, "-B", os.path.join(SCRIPTS, "evaluate.py"), *arguments]
-        return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              encoding="utf-8", check=False)
-
-    def assert_fails(self, message, *arguments):
-        result = self.run_script(*arguments)
-        self.assertEqual(result.returncode, 1)
-        self.assertIn(message, result.stderr)
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-
     def test_tum_against_euroc_csv_with_plots_and_json(self):
         estimate = self.write("estimate.tum", self.spiral(" "))
         truth = self.write("data.csv", self.spiral(",", stamp_unit=1e9))
         report = self.path("report.json")
         plots = self.path("plots")
-        result = self.run_script(estimate, truth, "--json", report, "--plots", plots)
+        result = call(main, estimate, truth, "--json", report, "--plots", plots)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("coverage 100.0 %", result.stdout)
         with open(report, encoding="utf-8") as file:
@@ -265,8 +250,8 @@ class CommandLine(FolderTest):
         # A world without poses does not count.
         for comment_at, worlds in ((len(rows), 1), (50, 2), (30, 3), (30, 3), (0, 3)):
             rows.insert(comment_at, "# the world frame starts anew: lost\n")
-            result = self.run_script(self.write("estimate.tum", "".join(rows)), truth,
-                                     "--t-offset", "0.001", "--json", report)
+            result = call(main, self.write("estimate.tum", "".join(rows)), truth,
+                          "--t-offset", "0.001", "--json", report)
             self.assertEqual("unconnected world frames" in result.stdout, worlds > 1)
             if worlds > 1:
                 self.assertIn(f"{worlds} unconnected world frames: APE and yaw",
@@ -277,62 +262,13 @@ class CommandLine(FolderTest):
     def test_ground_truth_with_a_byte_order_mark(self):
         estimate = self.write("estimate.tum", self.spiral(" "))
         truth = self.write("data.csv", "\ufeff" + self.spiral(",", stamp_unit=1e9))
-        self.assertIn("100 pairs", self.run_script(estimate, truth).stdout)
-
-    def evo_zip(self, *options):
-        """Returns the parts of a result file of an estimate with alternating errors of 0.3 m."""
-        estimate = self.write("estimate.tum", "".join(
-            line if i % 2 else line.replace(" 0.", " 0.3", 1)
-            for i, line in enumerate(self.spiral(" ").splitlines(keepends=True))))
-        truth = self.write("truth.tum", self.spiral(" "))
-        path = self.path("points.zip")
-        result = self.run_script(estimate, truth, "--evo-zip", path, "--json",
-                                 self.path("figures.json"), *options)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        with zipfile.ZipFile(path) as archive:
-            parts = {name: archive.read(name) for name in archive.namelist()}
-        return path, parts
-
-    def test_evo_zip_has_what_evo_res_reads(self):
-        _, parts = self.evo_zip()
-        info, stats = json.loads(parts["info.json"]), json.loads(parts["stats.json"])
-        self.assertEqual((info["est_name"], info["ref_name"]), ("points", "reference"))
-        self.assertEqual(info["title"], "APE w.r.t. translation part (m)\n"
-                                        "(with SE(3) Umeyama alignment)")
-        with open(self.path("figures.json"), encoding="utf-8") as file:
-            figures = json.load(file)["ape_m"]
-        arrays = {name[:-4]: np.load(io.BytesIO(data)) for name, data in parts.items()
-                  if name.endswith(".npz")}
-        self.assertGreater(figures["rmse"], 0.01)
-        for name in ("rmse", "mean", "median", "std", "min", "max"):
-            self.assertAlmostEqual(stats[name], figures[name], 12)
-        self.assertAlmostEqual(stats["sse"], 100 * stats["rmse"] ** 2, 9)
-        self.assertAlmostEqual(arrays["error_array"].max(), stats["max"], 12)
-        self.assertAlmostEqual(arrays["timestamps"][99], 1403636584.95, 6)
-        self.assertAlmostEqual(arrays["seconds_from_start"][99], 4.95, 6)
-        self.assertAlmostEqual(arrays["distances_from_start"][99], 99 * np.hypot(
-            2 * np.sin(0.05), 0.01), 6)
-        poses = read_trajectory(self.write("poses.tum", parts["points.tum"].decode()))
-        truth = read_trajectory(self.write("poses.tum", parts["reference.tum"].decode()))
-        np.testing.assert_allclose(metrics.position_errors(poses, truth), arrays["error_array"],
-                                   atol=1e-8)
-
-    def test_evo_zip_tells_the_alignment(self):
-        self.assertIn("not aligned", json.loads(self.evo_zip("--align", "none")[1]["info.json"])[
-            "title"])
-
-    @unittest.skipUnless(evo_backend.is_available(), "evo is not installed")
-    def test_evo_reads_the_zip(self):
-        from evo.tools import file_interface
-        result = file_interface.load_res_file(self.evo_zip()[0], load_trajectories=True)
-        self.assertEqual(len(result.np_arrays["error_array"]), 100)
-        self.assertEqual(result.trajectories["points"].num_poses, 100)
+        self.assertIn("100 pairs", call(main, estimate, truth).stdout)
 
     def test_time_offset(self):
         truth = self.write("truth.tum", self.spiral(" "))
         late = self.write("late.tum", self.spiral(" ").replace("14036365", "14036366"))
-        self.assert_fails("no overlap", late, truth)
-        self.assertEqual(self.run_script(late, truth, "--t-offset", "-100").returncode, 0)
+        self.assert_refused(main, "no overlap", late, truth)
+        self.assertEqual(call(main, late, truth, "--t-offset", "-100").returncode, 0)
 
     def unit_covariance(self, estimate):
         unit = ",".join("1" if i in (0, 6, 11, 15, 18, 20) else "0" for i in range(21))
@@ -345,8 +281,8 @@ class CommandLine(FolderTest):
         covariance = self.unit_covariance(estimate)
         report = self.path("report.json")
         for offset in ("0", "0.005"):
-            result = self.run_script(estimate, estimate, "--covariance", covariance, "--t-offset",
-                                     offset, "--nees-after", "4", "--json", report)
+            result = call(main, estimate, estimate, "--covariance", covariance, "--t-offset",
+                          offset, "--nees-after", "4", "--json", report)
             self.assertEqual(result.returncode, 0, result.stderr)
             with open(report, encoding="utf-8") as file:
                 self.assertLess(json.load(file)["position_nees"], 1e-6)
@@ -354,8 +290,8 @@ class CommandLine(FolderTest):
     def test_a_run_too_short_for_its_covariance_loses_no_figures(self):
         estimate = self.write("estimate.tum", self.spiral(" "))
         report = self.path("report.json")
-        result = self.run_script(estimate, estimate, "--covariance",
-                                 self.unit_covariance(estimate), "--json", report)
+        result = call(main, estimate, estimate, "--covariance",
+                      self.unit_covariance(estimate), "--json", report)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stderr, "no pose 10 s after the first.*--nees-after")
         self.assertIn("APE [m]", result.stdout)
@@ -379,11 +315,11 @@ class CommandLine(FolderTest):
             "does not increase": row + "1\n" + row + "1",
             "at least 3": row + "1",
         }
-        self.assert_fails("no such file", self.path("missing.tum"), good)
+        self.assert_refused(main, "no such file", self.path("missing.tum"), good)
         for message, text in bad.items():
             path = self.write("bad.tum", text + "\n")
-            self.assert_fails(message, path, good)
-            self.assert_fails(path, path, good)
+            self.assert_refused(main, message, path, good)
+            self.assert_refused(main, path, path, good)
 
 
 class Evo(unittest.TestCase):

@@ -1,9 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Test case with a temporary folder."""
+"""Test case with a temporary folder, and calls of scripts."""
 
+import contextlib
+import io
 import os
 import tempfile
 import unittest
+from types import SimpleNamespace
+
+
+def call(main, *arguments):
+    """Calls a script in this process, since loading its libraries takes most of a call."""
+    stdout, stderr = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
+        try:
+            code = main([str(word) for word in arguments])
+        except SystemExit as end:  # of the parser of arguments
+            code = end.code
+    return SimpleNamespace(returncode=code, stdout=stdout.getvalue(), stderr=stderr.getvalue())
 
 
 class FolderTest(unittest.TestCase):
@@ -22,3 +36,10 @@ class FolderTest(unittest.TestCase):
         with open(path, "wb") as file:
             file.write(content.encode() if isinstance(content, str) else content)
         return path
+
+    def assert_refused(self, main, message, *arguments):
+        """Expects exit code 1 and a single line with the message."""
+        result = call(main, *arguments)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(message, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)

@@ -2,18 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests the detection of steps in ground truth on flights with known steps."""
 
-import contextlib
-import io
 import json
 import unittest
 
 import numpy as np
 
-from known_flight import START, flight, moved  # first: it names the folder
+from known_flight import START, flight, format_tum, moved  # first: it names the folder
 from evaluate import evaluate, format_report, main
 from evaluation import steps
-from evaluation.trajectory import TrajectoryError, format_tum
-from folder_case import FolderTest
+from evaluation.trajectory import TrajectoryError
+from folder_case import FolderTest, call
 
 
 def jump(trajectory, *jumps):
@@ -125,10 +123,8 @@ class LeaveOut(FolderTest):
     def test_command_line(self):
         paths = [self.write(name, format_tum(trajectory)) for name, trajectory in
                  (("estimate.tum", self.estimate), ("truth.tum", self.truth))]
-        with contextlib.redirect_stdout(io.StringIO()) as output:
-            self.assertEqual(main([*paths, "--without-steps", "--json",
-                                   self.path("report.json")]), 0)
-        self.assertIn("excluded from the ground truth", output.getvalue())
+        result = call(main, *paths, "--without-steps", "--json", self.path("report.json"))
+        self.assertIn("excluded from the ground truth", result.stdout)
         with open(self.path("report.json"), encoding="utf-8") as file:
             figures = json.load(file)
         self.assertLess(figures["ape_m"]["rmse"], 1e-6)

@@ -19,8 +19,10 @@ import unittest
 import numpy as np
 import yaml
 
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "kalibr_to_config.py"
-sys.path.insert(0, str(SCRIPT.parent))
+from folder_case import call
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+import kalibr_to_config  # noqa: E402
 from kalibr import radial_models  # noqa: E402
 
 RUN_OFFLINE = sys.argv[1] if len(sys.argv) > 1 else sys.exit(__doc__)
@@ -82,8 +84,9 @@ class Kalibr(unittest.TestCase):
 
     def convert(self, *options, chain=None, imu=None):
         """Runs the script on a camera chain and an IMU, given as maps."""
-        return run(SCRIPT, self.write("chain.yaml", yaml.safe_dump(chain or {"cam0": CAMERA})),
-                   self.write("imu.yaml", yaml.safe_dump(imu or IMU)), *options)
+        return call(kalibr_to_config.main,
+                    self.write("chain.yaml", yaml.safe_dump(chain or {"cam0": CAMERA})),
+                    self.write("imu.yaml", yaml.safe_dump(imu or IMU)), *options)
 
     def load(self, **inputs):
         """Returns the configuration as read by run_offline, from a recording without readable
@@ -236,7 +239,7 @@ class RoundTrip(Kalibr):
                          "accelerometer_random_walk: 3e-3\ngyroscope_noise_density: 2e-4\n"
                          "gyroscope_random_walk: 2e-5\nrostopic: /imu\n")
         chain = self.write("chain.yaml", "%YAML:1.0\n" + yaml.safe_dump({"cam0": CAMERA}))
-        result = run(SCRIPT, chain, imu)
+        result = call(kalibr_to_config.main, chain, imu)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(yaml.safe_load(result.stdout.split("imu_noise_model")[1].partition(
             "\n")[2]), {"acc_n": 0.002, "gyr_n": 0.0002, "acc_w": 0.003, "gyr_w": "2e-05"})
@@ -420,10 +423,10 @@ class BadInput(Kalibr):
         imu = self.write("imu.yaml", yaml.safe_dump(IMU))
         for text, problem in (("cam0: [", "is not YAML"), ("", "must be a mapping"),
                               ("[1, 2]", "must be a mapping")):
-            result = run(SCRIPT, self.write("bad.yaml", text), imu)
+            result = call(kalibr_to_config.main, self.write("bad.yaml", text), imu)
             self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
             self.assertIn(f"bad.yaml: {problem}", result.stderr)
-        result = run(SCRIPT, self.folder / "none.yaml", imu)
+        result = call(kalibr_to_config.main, self.folder / "none.yaml", imu)
         self.assertIn("none.yaml: No such file", result.stderr)
 
     def test_an_existing_output_is_kept(self):
@@ -480,7 +483,7 @@ class Contradictions(Kalibr):
         expected = self.convert().stdout
         names = {"relative_config_imucam": "chain.yaml", "relative_config_imu": "imu.yaml"}
         config = self.write("estimator_config.yaml", "%YAML:1.0\n\n" + yaml.safe_dump(names))
-        result = run(SCRIPT, config, config)
+        result = call(kalibr_to_config.main, config, config)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stdout.splitlines()[2:], expected.splitlines()[2:])
 

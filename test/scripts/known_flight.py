@@ -9,7 +9,7 @@ import numpy as np
 TEST = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
 SCRIPTS = os.path.join(TEST, "..", "scripts")
 sys.path[:0] = [SCRIPTS, os.path.join(TEST, "tools")]
-from evaluation.trajectory import Trajectory  # noqa: E402
+from evaluation.trajectory import Trajectory, quaternions_of  # noqa: E402
 
 START = 1403636580.0  # [s], as large as real timestamps
 
@@ -31,3 +31,10 @@ def flight(rate=20.0, seconds=10.0):
 
 def moved(trajectory, offsets):
     return Trajectory(trajectory.stamps, trajectory.positions + offsets, trajectory.rotations)
+
+
+def format_tum(trajectory):
+    """Returns the trajectory as the text of a TUM file, with timestamps to the nanosecond."""
+    rows = np.column_stack([trajectory.positions, quaternions_of(trajectory.rotations)])
+    return "".join(f"{stamp:.9f} " + " ".join(f"{value:.9f}" for value in row) + "\n"
+                   for stamp, row in zip(trajectory.stamps, rows))

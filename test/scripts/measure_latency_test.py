@@ -12,13 +12,13 @@ import time
 import unittest
 from unittest import mock
 
-from refusal_case import RefusalTest
+from folder_case import FolderTest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tools"))
 
 
 @unittest.skipUnless(importlib.util.find_spec("rospy"), "needs ROS")
-class MeasureLatency(RefusalTest):
+class MeasureLatency(FolderTest):
     def setUp(self):
         config = tempfile.NamedTemporaryFile("w", suffix=".yaml")
         self.addCleanup(config.close)

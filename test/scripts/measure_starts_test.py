@@ -2,16 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of test/tools/measure_starts.py with a shell script instead of run_offline."""
 
-import contextlib
-import io
 import os
 import unittest
 
 import numpy as np
 
-from known_flight import START, flight, moved  # first: it names the folder
-from evaluation.trajectory import format_tum
-from folder_case import FolderTest
+from known_flight import START, flight, format_tum, moved  # first: it names the folder
+from folder_case import FolderTest, call
 from measure_starts import main
 
 LATE = 0.8  # first pose after the first image [s]
@@ -46,12 +43,10 @@ class MeasureStarts(FolderTest):
     def measure(self, script):
         self.write("run_offline", script.encode())
         os.chmod(self.path("run_offline"), 0o755)
-        output = io.StringIO()
-        with contextlib.redirect_stdout(output):
-            code = main([self.path("flight.bag"), "--last", "0.5", "--details", "--run-offline",
-                         self.path("run_offline")])
-        self.assertEqual(code, 0)
-        return output.getvalue()
+        result = call(main, self.path("flight.bag"), "--last", "0.5", "--details",
+                      "--run-offline", self.path("run_offline"))
+        self.assertEqual(result.returncode, 0)
+        return result.stdout
 
     def test_time_errors_and_sureness_of_a_start(self):
         self.write_run(error=0.06, deviation=0.01)

@@ -11,13 +11,13 @@ import sys
 import unittest
 from unittest import mock
 
-from refusal_case import RefusalTest
+from folder_case import FolderTest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tools"))
 
 
 @unittest.skipUnless(importlib.util.find_spec("rospy"), "needs ROS")
-class Soak(RefusalTest):
+class Soak(FolderTest):
     def series(self, what, values):
         from soak import Series
         series = Series()

@@ -2,15 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of test/tools/stress_table.py with a shell script instead of run_offline."""
 
-import contextlib
-import io
 import json
 import os
 import unittest
 
-from known_flight import START, flight, moved  # first: it names the folder
-from evaluation.trajectory import RESTART, format_tum
-from folder_case import FolderTest
+from known_flight import START, flight, format_tum, moved  # first: it names the folder
+from evaluation.trajectory import RESTART
+from folder_case import FolderTest, call
 from stress.feature_file import (IMU, IMU_LAYOUT, POINT_STATISTICS_SIZE, POINTS, SIGNATURE, SIZE,
                                  TRACKING)
 from stress_table import main
@@ -48,11 +46,9 @@ class StressTable(FolderTest):
         """Returns exit code, output and errors."""
         self.write("run_offline", b"#!/bin/sh\n" + script.encode())
         os.chmod(self.path("run_offline"), 0o755)
-        output, errors = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
-            code = main([self.path("good.feat"), self.path("truth.tum"), "--begin", "2",
-                         "--run-offline", self.path("run_offline"), *arguments])
-        return code, output.getvalue(), errors.getvalue()
+        result = call(main, self.path("good.feat"), self.path("truth.tum"), "--begin", "2",
+                      "--run-offline", self.path("run_offline"), *arguments)
+        return result.returncode, result.stdout, result.stderr
 
     def test_each_world_is_aligned_and_what_was_noticed_is_named(self):
         self.write_trajectory()

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares trajectories of runs with a camera time offset with ground truth on the IMU's clock."""
 
-import contextlib
-import io
 import json
 import os
 import unittest
@@ -11,12 +9,12 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from known_flight import START, flight  # first: it names the folder
+from known_flight import START, flight, format_tum  # first: it names the folder
 from dataset.results import Evaluator
 from evaluate import main
 from evaluation.run_results import check_whole, read_estimate, time_offset
-from evaluation.trajectory import TrajectoryError, format_tum
-from folder_case import FolderTest
+from evaluation.trajectory import TrajectoryError
+from folder_case import FolderTest, call
 from stress.damage import assess
 
 TD = 0.03  # [s]
@@ -40,11 +38,11 @@ class TimeOffset(FolderTest):
 
     def evaluate(self, *options):
         """Returns the printed text and all figures."""
-        output, report = io.StringIO(), self.path("figures.json")
-        with contextlib.redirect_stdout(output):
-            self.assertEqual(main([self.estimate, self.truth, "--json", report, *options]), 0)
+        report = self.path("figures.json")
+        result = call(main, self.estimate, self.truth, "--json", report, *options)
+        self.assertEqual(result.returncode, 0)
         with open(report, encoding="utf-8") as file:
-            return output.getvalue(), json.load(file)
+            return result.stdout, json.load(file)
 
 
 class OneTrajectory(TimeOffset):
@@ -98,7 +96,7 @@ class Dataset(TimeOffset):
 
     def figures(self, duration=None):
         evaluator = Evaluator([self.run_.sequence], duration)
-        return evaluator.compare(self.run_, {"init_time_s": 1.0})[2]
+        return evaluator.compare(self.run_, {"init_time_s": 1.0})
 
     def test_is_that_of_the_run(self):
         figures = self.figures()

@@ -21,8 +21,8 @@ import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "scripts"))
-from dataset.markdown import Table  # noqa: E402
 from evaluation import metrics  # noqa: E402
+from evaluation.markdown import Table  # noqa: E402
 from evaluation.run_results import read_estimate  # noqa: E402
 from evaluation.steps import without_steps  # noqa: E402
 from evaluation.trajectory import read_truth  # noqa: E402

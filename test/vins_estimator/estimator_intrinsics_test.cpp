@@ -11,7 +11,7 @@ namespace {
 using testing::EstimatedFlight;
 using testing::SimulatedFlight;
 
-constexpr uint64_t kSeeds = 6;
+constexpr uint64_t kSeeds = 3;
 
 simulator::FeatureSimulationOptions Options(uint64_t seed) {
   auto options = testing::FlightOptions(simulator::Motion::kFast, seed);

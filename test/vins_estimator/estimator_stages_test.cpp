@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The benefit of each stage for lines on long flights. The bounds are the ratios of mean errors in
 // 24 flights (16 for the Manhattan frame) plus two standard deviations of the ratio, by bootstrap,
-// for the number of flights here.
+// for the number of flights here (one and a half for the Manhattan frame).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -51,7 +51,7 @@ struct Errors {
 class EstimatorStages : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    flights_ = SimulateLongFlights(12, 50);
+    flights_ = SimulateLongFlights(8, 50);
     with_all_ = MeanErrors(flights_, [](EstimatorConfig*) {});
   }
 
@@ -101,7 +101,7 @@ TEST_F(EstimatorStages, AnchorsReduceTheError) {
 // Tested without anchors: with anchors, recognized lines constrain the heading as well, and the
 // Manhattan frame adds nothing measurable in 24 flights of 50 s or 16 of 150 s.
 TEST_F(EstimatorStages, ManhattanFrameReducesHeadingDrift) {
-  const auto flights = SimulateLongFlights(8, 150);
+  const auto flights = SimulateLongFlights(6, 150);
   const auto with = MeanErrors(flights, [](EstimatorConfig* c) { c->line_anchors = 0; });
   const auto without = MeanErrors(flights, [](EstimatorConfig* c) {
     c->line_anchors = 0;

@@ -19,16 +19,16 @@ using testing::SimulatedFlight;
 
 // A gentle flight with an accelerometer as noisy as propellers make it, which hardly tells the
 // scale.
-simulator::FeatureSimulationOptions GentleFlight(uint64_t seed) {
+simulator::FeatureSimulationOptions GentleFlight(uint64_t seed, double duration = 15) {
   auto options = testing::FlightOptions(simulator::Motion::kGentle, seed);
-  options.trajectory.duration = 15;
+  options.trajectory.duration = duration;
   options.max_points = 80;
   options.sensors.imu_noise.accel_density = 0.03;
   return options;
 }
 
-SimulatedFlight StereoFlight(uint64_t seed, double outlier_ratio = 0) {
-  auto options = GentleFlight(seed);
+SimulatedFlight StereoFlight(uint64_t seed, double outlier_ratio = 0, double duration = 15) {
+  auto options = GentleFlight(seed, duration);
   options.sensors.cameras = simulator::DefaultStereoSensors().cameras;
   options.second_outlier_ratio = outlier_ratio;
   return testing::WithoutLines(testing::SimulateFlight(options, /*skip=*/1));
@@ -100,7 +100,7 @@ TEST(EstimatorStereo, ASecondCameraOrDepthHasLessErrorThanOneCamera) {
 
 TEST(EstimatorStereo, StartsInMotionWithinSixTenthsOfASecond) {
   for (uint64_t seed = 1; seed <= 4; ++seed) {
-    const SimulatedFlight flight = StereoFlight(seed);
+    const SimulatedFlight flight = StereoFlight(seed, /*outlier_ratio=*/0, /*duration=*/3);
     const EstimatedFlight estimated = testing::Estimate(flight);
     EXPECT_LE(FirstPose(flight, estimated), 0.6);
     const FrameState& first = estimated.outputs.front().state;
@@ -110,7 +110,7 @@ TEST(EstimatorStereo, StartsInMotionWithinSixTenthsOfASecond) {
 }
 
 TEST(EstimatorStereo, StartsAtStandstillWithinThreeTenthsOfASecond) {
-  auto options = GentleFlight(1);
+  auto options = GentleFlight(1, /*duration=*/4);
   options.sensors.cameras = simulator::DefaultStereoSensors().cameras;
   options.trajectory.rest = 2;
   const SimulatedFlight flight = testing::SimulateFlight(options);
@@ -184,7 +184,7 @@ int ImagesWithKnownDepth(const SimulatedFlight& flight, double rest) {
 
 // Noise triangulates points arbitrarily near until the body moves.
 TEST(EstimatorStereo, KnowsNoDepthAtRestIfTheSecondCameraDeliversNothing) {
-  auto options = GentleFlight(1);
+  auto options = GentleFlight(1, /*duration=*/4);
   options.sensors.cameras = simulator::DefaultStereoSensors().cameras;
   options.trajectory.rest = 2;
   SimulatedFlight flight = testing::SimulateFlight(options, /*skip=*/1);

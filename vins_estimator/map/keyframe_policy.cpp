@@ -53,15 +53,13 @@ bool IsKeyframe(const KeyframePolicyOptions& options, const SlidingWindow& windo
   const double interval = ToSeconds(newest_ns - before_ns);
   const TrackedPoints tracked = Compare(points, before_ns, newest_ns);
   if (tracked.in_newest < options.min_points_to_see) return interval > options.max_blind_interval;
-  const bool is_full = window.frames.size() >= options.window_size;
-  if (is_full && interval < options.min_interval && tracked.in_both >= options.min_tracked) {
-    return false;
-  }
   const bool at_rest = RestsFor(options.min_keyframes_at_rest + 1, window);
   const double max_interval = at_rest ? options.max_interval_at_rest : options.max_interval;
+  const bool is_full = window.frames.size() >= options.window_size;
   return interval > max_interval || tracked.in_both < options.min_tracked ||
          tracked.in_both < options.min_tracked_share * tracked.in_newest ||
-         tracked.mean_parallax > options.min_parallax;
+         (tracked.mean_parallax > options.min_parallax &&
+          (!is_full || interval > options.min_interval));
 }
 
 bool EndsStandstill(const KeyframePolicyOptions& options, const SlidingWindow& window) {

@@ -19,8 +19,8 @@ struct KeyframePolicyOptions {
   double min_parallax;             // mean corner motion that makes a keyframe, normalized
   int min_tracked = 20;            // keyframe if fewer corners of the last keyframe are tracked
   double min_tracked_share = 0.5;  // keyframe if a smaller share of the image's corners is old
-  // Shortest interval between keyframes once the window is full [s]: closer ones would shorten the
-  // time that it spans.
+  // Shortest interval after which motion alone makes a keyframe once the window is full [s]: closer
+  // ones would shorten the time that it spans.
   double min_interval = 0.08;
   int min_points_to_see = 10;  // an image with fewer corners is blind
   double max_interval = 1.0;   // longest interval between keyframes in motion [s]

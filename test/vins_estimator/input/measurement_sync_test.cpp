@@ -136,53 +136,6 @@ TEST(MeasurementSync, BadImuSamplesAreDroppedAndCounted) {
   EXPECT_EQ(sync.statistics().imu_gaps, 0);
 }
 
-TEST(MeasurementSync, ImpossibleSamplesAreDroppedAndCounted) {
-  MeasurementSync sync({});
-  AddImu(&sync, 0, 20);
-  sync.AddImu({25 * kMs, {0, -1000, 0}, {0, 9.81, 0}});
-  sync.AddImu({30 * kMs, {0, 0, 0}, {0, 0, 2000}});
-  sync.AddImu({35 * kMs, {0, 0, 0}, {0, 0, 0}});
-  sync.AddImu({kEndOfTime_ns, {0, 0, 0}, {0, 9.81, 0}});
-  AddImu(&sync, 40, 60);
-  sync.AddPoints(Points(50 * kMs));
-  const auto frames = PopAll(&sync);
-  ASSERT_EQ(frames.size(), 1u);
-  for (const ImuSample& sample : frames[0].imu) ExpectOnTheLine(sample);
-  EXPECT_EQ(sync.statistics().imu_implausible, 4);
-}
-
-TEST(MeasurementSync, SpikeIsReplacedAndCounted) {
-  MeasurementSync sync({});
-  for (int64_t t = 0; t <= 200; t += 5) {
-    ImuSample sample = Sample(t * kMs);
-    if (t == 60) sample.accel.z() += 150;
-    sync.AddImu(sample);
-  }
-  sync.AddPoints(Points(100 * kMs));
-  const auto frames = PopAll(&sync);
-  ASSERT_EQ(frames.size(), 1u);
-  EXPECT_EQ(sync.statistics().imu_replaced, 1);
-  for (const ImuSample& sample : frames[0].imu) {
-    ExpectOnTheLine(sample);
-    EXPECT_NEAR(sample.accel_doubt, sample.t_ns == 60 * kMs ? 150 : 0, 1e-9);
-  }
-}
-
-TEST(MeasurementSync, SingleSampleInTheFutureIsDropped) {
-  MeasurementSync sync({});
-  AddImu(&sync, 0, 20);
-  ImuSample wrong = Sample(22 * kMs);
-  wrong.t_ns = 100'000 * kMs;
-  sync.AddImu(wrong);
-  AddImu(&sync, 25, 60);
-  sync.AddPoints(Points(50 * kMs));
-  const auto frames = PopAll(&sync);
-  ASSERT_EQ(frames.size(), 1u);
-  EXPECT_EQ(frames[0].imu.size(), 11u);  // 0 ... 50
-  EXPECT_EQ(sync.statistics().imu_out_of_order, 1);
-  EXPECT_EQ(sync.statistics().imu_gaps, 0);
-}
-
 TEST(MeasurementSync, AnImuGapIsCountedAndBridgedByTheNextFrameWithSamples) {
   MeasurementSync sync({});
   AddImu(&sync, 0, 100);
@@ -222,15 +175,6 @@ TEST(MeasurementSync, RepeatedAndBackwardImagesAreDropped) {
   EXPECT_FALSE(sync.Pop().has_value());
   EXPECT_EQ(sync.statistics().frames, 5);
   EXPECT_EQ(sync.statistics().frames_out_of_order, 3);
-}
-
-TEST(MeasurementSync, BackwardJumpIsDetectedAfterTenImuSamples) {
-  for (const int samples : {9, 10}) {
-    MeasurementSync sync({});
-    AddImu(&sync, 0, 200);
-    AddImu(&sync, 202 - 5 * samples, 202);
-    EXPECT_EQ(sync.statistics().jumps_back, samples == 10 ? 1 : 0);
-  }
 }
 
 // Includes samples that were returned already, and one that the gate replaced.

@@ -230,32 +230,6 @@ TEST_F(LineMapTest, HostOnTheLineIsRejected) {
   EXPECT_FALSE(Landmark(7).triangulated);
 }
 
-TEST_F(LineMapTest, RestartKeepsPositionAndNewestObservation) {
-  Triangulate();
-  Landmark(7).observations.pop_back();  // no longer observed
-  MoveHost(window_, 1, &Landmark(8));   // has another host
-  Landmark(8).observations.erase(Landmark(8).observations.begin());
-  map_.RemoveFrame(window_, -1);  // of no frame: changes nothing
-
-  int departures = 0;
-  map_.Reinitialize(window_, Stamp(0), [&](const LineLandmark& landmark) {
-    ++departures;
-    EXPECT_EQ(landmark.id, 7);
-    ExpectInPlace(landmark);
-  });
-  EXPECT_EQ(departures, 1);
-  EXPECT_EQ(map_.landmarks().count(7), 0u);
-  EXPECT_EQ(Landmark(8).observations.size(), 3u);
-  EXPECT_EQ(Landmark(9).observations.size(), 1u);
-  EXPECT_EQ(Landmark(9).host().t_ns, Stamp(3));
-  ExpectAllInPlace();
-}
-
-TEST_F(LineMapTest, RestartKeepsUntriangulatedLines) {
-  map_.Reinitialize(window_, Stamp(0), [](const LineLandmark&) { FAIL(); });
-  EXPECT_EQ(Landmark(9).observations.size(), 4u);
-}
-
 TEST_F(LineMapTest, ObservedSegmentIsTheUnionOfObservations) {
   Triangulate();
   const Segment& whole = segments_W_[3];

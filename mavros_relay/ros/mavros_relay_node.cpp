@@ -91,7 +91,7 @@ MavrosRelayNode::MavrosRelayNode() {
 
 std::string MavrosRelayNode::ReadFrame(const std::string& parameter,
                                        const std::string& otherwise) const {
-  const auto frame = FindParameter<std::string>(private_node_, parameter).value_or(otherwise);
+  auto frame = FindParameter<std::string>(private_node_, parameter).value_or(otherwise);
   if (const auto problem = CheckFrameName(frame)) {
     throw std::runtime_error("parameter " + private_node_.resolveName(parameter) + ": \"" + frame +
                              "\" " + *problem);

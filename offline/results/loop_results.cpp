@@ -8,9 +8,9 @@
 
 #include "common/format.h"
 #include "common/stopwatch.h"
-#include "offline/results/loop_input.h"
 #include "pose_graph/output/loop_table.h"
 #include "vins_estimator/output/covariance_table.h"
+#include "vins_estimator/output/placed_features.h"
 #include "vins_estimator/output/tum_format.h"
 
 namespace plm_vins {
@@ -27,6 +27,30 @@ std::optional<MapBundle> BundleOf(const Config& config, double focal_length) {
   options.point_noise = config.estimator.point_noise / focal_length;
   if (sensor.depth) options.depth_noise = sensor.depth->noise;
   return MapBundle(options);
+}
+
+// Converts the result of an image with a pose to the input of loop closure. `restarted` means that
+// the world frame has changed since the previous image with a pose.
+OdometryFrame ToOdometryFrame(const PipelineFrame& frame, bool restarted) {
+  const EstimatorOutput& output = frame.output;
+  OdometryFrame result;
+  result.t_ns = output.t_ns;
+  result.restarted = restarted;
+  result.T_O_B = output.state.T_W_B();
+  result.T_B_C.clear();
+  for (const CameraCalibration& camera : output.calibration.cameras) {
+    result.T_B_C.push_back(camera.T_B_C);
+    result.refined.push_back(camera.parameters);
+  }
+  // An unknown covariance is zero, so that odometry edges get the minimum of OdometryNoise.
+  if (output.uncertainty) result.covariance = output.uncertainty->pose;
+  result.corners = PlaceCorners(frame.points, output.points);
+  result.segments = PlaceSegments(frame.lines, output.lines);
+  for (size_t camera = 0; camera < frame.images.size(); ++camera) {
+    const ImageSample& image = frame.images[camera];
+    if (!image.gray.empty()) result.images[static_cast<int>(camera)] = {image.gray, image.owner};
+  }
+  return result;
 }
 
 }  // namespace

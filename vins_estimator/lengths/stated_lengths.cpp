@@ -10,7 +10,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMemory = 10;  // longest time from the start to repeat [s]
+constexpr double kMemory = 10;                  // longest time from the start to repeat [s]
+constexpr double kLargestByCalibration = 0.25;  // error of the logarithm of a length
 
 // Units of depth images other than mm in 16UC1 and m in 32FC1.
 struct DepthUnit {
@@ -57,7 +58,8 @@ std::string ProbableDepthUnit(double ratio, double deviation, double depth_unit)
     text = unit.is_integer ? Format("unit %s? depth_unit: %.6g", unit.name, unit.meters)
                            : Format("are these 32FC1 images in %s? They must be in m", unit.name);
   }
-  return text;
+  const bool is_far_off = std::abs(std::log(ratio)) > kLargestByCalibration;
+  return text.empty() && is_far_off ? "of no common unit: disparity instead of depth?" : text;
 }
 
 StatedLengths::StatedLengths(const Config& config) : sensor_(config.sensor) {

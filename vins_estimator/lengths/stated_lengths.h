@@ -49,7 +49,8 @@ class StatedLengths {
 };
 
 // Returns what the values of depth images probably are if they are `ratio` times too long: a unit,
-// with what to set; empty if no common unit fits within `deviation` of the logarithm.
+// with what to set, or disparity if no common unit fits within `deviation` of the logarithm; empty
+// if a wrong calibration may be the cause.
 std::string ProbableDepthUnit(double ratio, double deviation, double depth_unit);
 
 }  // namespace plm_vins

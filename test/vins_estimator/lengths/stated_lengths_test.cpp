@@ -20,6 +20,7 @@ TEST(StatedLengths, KnowTheUnitsOfDepthImages) {
   EXPECT_THAT(ProbableDepthUnit(1000, 0.01, 0.001), HasSubstr("32FC1 images in mm"));
   EXPECT_THAT(ProbableDepthUnit(3.28, 0.01, 0.001), HasSubstr("feet"));
   EXPECT_THAT(ProbableDepthUnit(0.1, 0.01, 0.0001), HasSubstr("mm? depth_unit: 0.001"));
+  EXPECT_THAT(ProbableDepthUnit(1.88, 0.01, 0.001), HasSubstr("disparity instead of depth"));
   EXPECT_EQ(ProbableDepthUnit(1.1, 0.01, 0.001), "");
 }
 

@@ -35,7 +35,6 @@ fi
 
 # Uses the compile commands of a full build; clang cannot read the precompiled headers of GCC.
 cmake -S . -B "$build" -DPLM_PRECOMPILED_HEADERS=OFF -DPLM_GROUP_SOURCES=OFF -DBUILD_FUZZ=ON >/dev/null
-cmake --build "$build" --target plm_vins_gencfg >/dev/null
 printf '%s\n' "${sources[@]}" |
   xargs -P "$(nproc)" -n 1 clang-tidy-14 -p "$build" --quiet --warnings-as-errors='*' \
     --extra-arg=-Wno-unknown-warning-option

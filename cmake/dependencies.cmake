@@ -18,10 +18,8 @@ if(BUILD_ROS)
     set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python of ament")
   endif()
   find_package(catkin REQUIRED COMPONENTS
-    cv_bridge diagnostic_updater dynamic_reconfigure geometry_msgs image_transport nav_msgs nodelet
+    cv_bridge diagnostic_updater geometry_msgs image_transport nav_msgs nodelet
     pluginlib rosbag roscpp sensor_msgs std_msgs std_srvs tf2_msgs tf2_ros visualization_msgs)
-  generate_dynamic_reconfigure_options(cfg/FeatureTracker.cfg cfg/LineFeatureTracker.cfg)
-  set_directory_properties(PROPERTIES INCLUDE_DIRECTORIES "")  # added to all targets by the previous line
   catkin_package(CFG_EXTRAS plm_vins-extras.cmake)
   # Debian nests the headers that rosbag/bag.h needs one folder deeper than ROS does.
   set(ROS_INCLUDE_DIRS ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS})

@@ -101,14 +101,6 @@ class PointTracker::Implementation {
     statistics_ = {};
   }
 
-  // Tracks are ordered by age, so the youngest are dropped.
-  void SetMaxCorners(int count) {
-    config_.max_cnt = count;
-    detector_ = CornerDetector(config_, mask_);
-    last_usable_.reset();
-    tracks_.resize(std::min(tracks_.size(), static_cast<size_t>(count)));
-  }
-
   const PointTrackerStatistics& statistics() const { return statistics_; }
   std::string PairFinding() const {
     const std::string depth = depth_reader_.Finding();
@@ -323,7 +315,7 @@ class PointTracker::Implementation {
     return frame;
   }
 
-  // Constant after construction, except for SetMaxCorners().
+  // Constant after construction.
   PointTrackerConfig config_;
   std::shared_ptr<const CameraModel> camera_;
   cv::Size image_size_;
@@ -363,8 +355,6 @@ PointFrame PointTracker::Track(const ImageSample& image,
 }
 
 void PointTracker::Reset() { implementation_->Reset(); }
-
-void PointTracker::SetMaxCorners(int count) { implementation_->SetMaxCorners(count); }
 
 const PointTrackerStatistics& PointTracker::statistics() const {
   return implementation_->statistics();

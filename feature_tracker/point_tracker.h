@@ -48,9 +48,6 @@ class PointTracker {
 
   void Reset();  // drops all tracks; ids continue
 
-  // Replaces max_cnt from the next image on; drops the youngest tracks if there are too many.
-  void SetMaxCorners(int count);
-
   const PointTrackerStatistics& statistics() const;
 
   // Describes what seems to be wrong with the pair, or with depth images, and what to do; empty if

@@ -28,6 +28,7 @@ namespace {
 constexpr int kSearchAfterFlow_px = 2;
 constexpr int kSearchAfterDetection_px = 4;
 constexpr double kMinCorrelation = 0.6;  // correlation of the profiles across a line
+constexpr double kLineSpacing_px = 5;    // least distance of parallel lines side by side
 constexpr double kRefillBelow = 0.9;     // share of max_lines below which lines are detected
 constexpr int kRefillInterval = 5;       // least number of images between detections
 
@@ -104,13 +105,6 @@ class LineTracker::Implementation {
     statistics_ = {};
   }
 
-  // Lines are ordered by age, so the youngest are dropped.
-  void SetMaxLines(int count) {
-    config_.max_lines = count;
-    last_usable_.reset();
-    tracks_.resize(std::min(tracks_.size(), static_cast<size_t>(count)));
-  }
-
   const LineTrackerStatistics& statistics() const { return statistics_; }
   cv::Mat DrawTracks() const { return DrawLineTracks(sample_.gray, tracks_); }
 
@@ -179,7 +173,7 @@ class LineTracker::Implementation {
 
   // Drops the younger of two tracks that lie on the same line.
   void DropDuplicates() {
-    LineOccupancy occupied(config_.spacing);
+    LineOccupancy occupied(kLineSpacing_px);
     std::vector<LineTrack> kept;
     for (LineTrack& track : tracks_) {
       if (occupied.IsTaken(track.segment_px)) continue;
@@ -208,7 +202,7 @@ class LineTracker::Implementation {
 
   // Adds tracks where the image has none.
   void Refill(const cv::Mat& image, const std::vector<FoundLine>& lines) {
-    LineOccupancy occupied(config_.spacing);
+    LineOccupancy occupied(kLineSpacing_px);
     LineQueue queue(image_size_);
     for (const LineTrack& track : tracks_) {
       occupied.Add(track.segment_px);
@@ -260,7 +254,7 @@ class LineTracker::Implementation {
     return frame;
   }
 
-  // Constant after construction, except for the detector's buffers and SetMaxLines().
+  // Constant after construction, except for the detector's buffers.
   LineTrackerConfig config_;
   std::shared_ptr<const CameraModel> camera_;
   cv::Size image_size_;
@@ -295,8 +289,6 @@ LineFrame LineTracker::Track(const ImageSample& image,
 }
 
 void LineTracker::Reset() { implementation_->Reset(); }
-
-void LineTracker::SetMaxLines(int count) { implementation_->SetMaxLines(count); }
 
 const LineTrackerStatistics& LineTracker::statistics() const {
   return implementation_->statistics();

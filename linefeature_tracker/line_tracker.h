@@ -54,9 +54,6 @@ class LineTracker {
 
   void Reset();  // drops all tracks; ids continue
 
-  // Replaces max_line_cnt from the next image on; drops the youngest tracks if there are too many.
-  void SetMaxLines(int count);
-
   const LineTrackerStatistics& statistics() const;
 
   // Returns the last image with its tracks drawn (CV_8UC3), colored by age.

@@ -9,9 +9,6 @@ namespace {
 // Transforms all members of the keyframe that are expressed in the odometry world O.
 void Move(const LevelTransform& T_new_old, Keyframe* keyframe) {
   keyframe->T_O_B = T_new_old.ToRigid() * keyframe->T_O_B;
-  if (keyframe->R_O_Manhattan) {
-    keyframe->R_O_Manhattan = T_new_old.rotation() * *keyframe->R_O_Manhattan;
-  }
   for (DescribedCorner& corner : keyframe->corners) {
     if (corner.p_O) corner.p_O = (T_new_old * corner.p_O->cast<double>()).cast<float>();
   }

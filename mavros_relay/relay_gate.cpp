@@ -3,7 +3,6 @@
 
 #include <cstdlib>
 #include <stdexcept>
-#include <string>
 
 #include "common/measurements.h"
 
@@ -11,18 +10,16 @@ namespace plm_vins {
 namespace {
 
 constexpr double kMaxGap = 0.2;  // between states [s]; any restart of the estimator takes longer
-
-// Throws for NaN as well.
-void RequireWithin(double value, double min, double max, const std::string& text) {
-  if (!(value >= min && value <= max)) throw std::invalid_argument(text);
-}
+constexpr double kMaxAge = 0.5;  // of the last image's estimate [s]
+// Minimum pause of the states at an interruption [s]: EKF2 notices pauses of 0.4 s and more.
+constexpr double kMinPause = 1.0;
 
 }  // namespace
 
-RelayGate::RelayGate(const Options& options) : options_(options) {
-  RequireWithin(options.rate, 0.1, 1000, "rate must be 0.1 to 1000 Hz");
-  RequireWithin(options.max_age, 0.001, 1000, "max_age must be 0.001 to 1000 s");
-  RequireWithin(options.min_pause, 0.001, 1000, "min_pause must be 0.001 to 1000 s");
+RelayGate::RelayGate(double rate) : rate_(rate) {
+  if (!(rate >= 0.1 && rate <= 1000)) {  // NaN as well
+    throw std::invalid_argument("rate must be 0.1 to 1000 Hz");
+  }
 }
 
 bool RelayGate::Pass(int64_t t_ns) {
@@ -33,7 +30,7 @@ bool RelayGate::Pass(int64_t t_ns) {
   if (!IsUsable(t_ns)) return false;
   if (is_interrupted_) {
     const bool is_too_soon =
-        passed_ns_ && t_ns >= *passed_ns_ && t_ns - *passed_ns_ < ToNanoseconds(options_.min_pause);
+        passed_ns_ && t_ns >= *passed_ns_ && t_ns - *passed_ns_ < ToNanoseconds(kMinPause);
     if (is_too_soon) return false;
     if (passed_ns_) ++resets_;
     is_interrupted_ = false;
@@ -45,12 +42,12 @@ bool RelayGate::Pass(int64_t t_ns) {
 }
 
 bool RelayGate::IsUsable(int64_t t_ns) const {
-  return image_ns_ && std::abs(t_ns - *image_ns_) <= ToNanoseconds(options_.max_age);
+  return image_ns_ && std::abs(t_ns - *image_ns_) <= ToNanoseconds(kMaxAge);
 }
 
 bool RelayGate::IsDue(int64_t t_ns) {
   if (t_ns < due_ns_) return false;
-  const int64_t period_ns = ToNanoseconds(1 / options_.rate);
+  const int64_t period_ns = ToNanoseconds(1 / rate_);
   due_ns_ += period_ns * (1 + (t_ns - due_ns_) / period_ns);
   return true;
 }

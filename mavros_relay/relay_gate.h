@@ -15,14 +15,9 @@ namespace plm_vins {
 // estimate. A pause of the relayed states and a reset counter announce this.
 class RelayGate {
  public:
-  struct Options {
-    double rate = 30;        // [Hz], 0.1 to 1000
-    double max_age = 0.5;    // age of the last image's estimate [s], 0.001 to 1000
-    double min_pause = 1.0;  // minimum pause of the states at an interruption [s], 0.001 to 1000
-  };
-
-  // Throws std::invalid_argument that names the option if an option is out of range.
-  explicit RelayGate(const Options& options);
+  // `rate` is that of the relayed states [Hz], 0.1 to 1000. Throws std::invalid_argument if it is
+  // out of range.
+  explicit RelayGate(double rate);
 
   // Reports a processed image, which supports the states from the newest one on.
   void AddImage() { image_ns_ = state_ns_; }
@@ -38,7 +33,7 @@ class RelayGate {
   bool IsUsable(int64_t t_ns) const;
   bool IsDue(int64_t t_ns);
 
-  const Options options_;
+  const double rate_;
   std::optional<int64_t> image_ns_;   // newest state when the last image came
   std::optional<int64_t> state_ns_;   // newest state
   std::optional<int64_t> passed_ns_;  // newest relayed state

@@ -13,16 +13,16 @@ common_packages=(
 optional_packages=(python3-plotly python3-tornado)  # for 3-D pages
 debian_packages=(
   catkin libcv-bridge-dev libdiagnostic-updater-dev
-  libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev libimage-transport-dev
+  libgeometry-msgs-dev libimage-transport-dev
   libnav-msgs-dev libnodelet-dev libnodeletlib-dev libnodeletlib-tools librosbag-dev libroscpp-dev
   librostest-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-msgs-dev libtf2-ros-dev
-  libvisualization-msgs-dev pluginlib-dev python3-diagnostic-msgs python3-dynamic-reconfigure
+  libvisualization-msgs-dev pluginlib-dev python3-diagnostic-msgs
   python3-nav-msgs python3-rosbag python3-roslaunch python3-rosnode python3-rosservice
   python3-rostest python3-rostopic python3-sensor-msgs python3-std-srvs python3-tf2-msgs
   python3-visualization-msgs rosbash rosout rviz tf2-tools)
 noetic_packages=(
   ros-noetic-catkin ros-noetic-cv-bridge ros-noetic-diagnostic-updater
-  ros-noetic-dynamic-reconfigure ros-noetic-geometry-msgs ros-noetic-image-transport
+  ros-noetic-geometry-msgs ros-noetic-image-transport
   ros-noetic-nav-msgs ros-noetic-nodelet ros-noetic-pluginlib ros-noetic-rosbag ros-noetic-rosbash
   ros-noetic-roscpp ros-noetic-roslaunch ros-noetic-rosnode ros-noetic-rostest
   ros-noetic-rviz ros-noetic-sensor-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2-msgs

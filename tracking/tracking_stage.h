@@ -89,10 +89,9 @@ class TrackingStage {
                        [](const TrackedCamera& camera) { return camera.tracker->HasLearned(); });
   }
 
-  // Applies a function to all trackers.
-  template <typename Function>
-  void ForEachTracker(const Function& function) {
-    for (TrackedCamera& camera : cameras_) function(camera.tracker.get());
+  // Drops the tracks of all cameras.
+  void Reset() {
+    for (TrackedCamera& camera : cameras_) camera.tracker->Reset();
   }
 
   // Returns the first text that is not empty, with the number of the camera.
@@ -141,7 +140,7 @@ class TrackingStage {
 
   std::optional<Frame> Track(std::optional<ReadyImage> next) {
     if (!next) return std::nullopt;
-    if (next->restart) ForEachTracker([](Tracker* tracker) { tracker->Reset(); });
+    if (next->restart) Reset();
     const Stopwatch stopwatch;
     Frame frame;
     frame.features.t_ns = next->images[0].t_ns;

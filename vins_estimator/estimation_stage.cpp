@@ -32,6 +32,10 @@ constexpr char kUnfeltInFlight[] =
     "train, the deck of a ship), or the IMU does not belong to this camera; meanwhile the images "
     "move no estimate";
 
+constexpr char kUnseen[] =
+    "the camera sees no motion that the IMU feels: a lift or a vehicle, in which the view moves "
+    "along, or the IMU is not fixed to the camera; meanwhile the pose is relative to the view";
+
 // Standard deviations that stand for findings without any: what the data state themselves, and what
 // other causes may show as well.
 constexpr double kFact = 1000, kUnfeltMotion = 8;
@@ -171,19 +175,20 @@ std::string EstimationStage::ImuContradiction() const {
   using Rotations = ContradictionEvidence::Rotations;
   if (world_->rotation_checks.front().agrees()) evidence.rotations = Rotations::kAgree;
   if (!FindRotationFault().text.empty()) evidence.rotations = Rotations::kExplained;
-  evidence.camera_rests = estimator_->FeelsUnseenMotion();
   return DescribeContradiction(evidence);
 }
 
+// The noise scale is that of both sensors; the samples of either may show it, by vibration.
 double EstimationStage::NoiseFactor() const {
   const EstimatorReport& newest = world_->newest;
   const ImuNoise& configured = config_.sensor.imu_noise;
   const ImuNoise& noise = newest.has_pose ? newest.imu_noise : configured;
   const ImuNoiseMeter& samples = world_->imu_noise_meter;
-  return std::max(
-      {std::sqrt(newest.imu_noise_scale),
-       noise.accel_density / std::max(configured.accel_density, samples.accel_density()),
-       noise.gyro_density / std::max(configured.gyro_density, samples.gyro_density())});
+  const double accel =
+      noise.accel_density / std::max(configured.accel_density, samples.accel_density());
+  const double gyro =
+      noise.gyro_density / std::max(configured.gyro_density, samples.gyro_density());
+  return std::max({std::sqrt(newest.imu_noise_scale) * std::min(accel, gyro), accel, gyro});
 }
 
 const Finding& EstimationStage::InputFinding() const { return world_->input_faults.finding(); }
@@ -203,6 +208,7 @@ RankedFinding EstimationStage::FindInputFault() const {
   const RankedFinding lengths = {lengths_->Finding(), lengths_->Contradiction()};
   // A wrong focal length or rotation makes lengths wrong; a wrong length turns no camera.
   const RankedFinding& worst = rotations.text.empty() ? lengths : rotations;
+  if (worst.text.empty() && estimator_->ViewMovesAlong()) return {kUnseen, kUnfeltMotion};
   if (!worst.text.empty() || !estimator_->SeesUnfeltMotion()) return worst;
   return {world_->newest.has_pose ? kUnfeltInFlight : kUnfeltBeforeStart, kUnfeltMotion};
 }

@@ -2,6 +2,7 @@
 #include "vins_estimator/estimator.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "common/stopwatch.h"
@@ -10,6 +11,8 @@
 
 namespace plm_vins {
 namespace {
+
+constexpr char kContradictedStart[] = "all points together contradict the start by a few";
 
 FrameMeasurement WithoutFeatures(FrameMeasurement measurement) {
   measurement.points.points.clear();
@@ -78,8 +81,9 @@ EstimatorOutput Estimator::Use(const FrameMeasurement& measurement, int features
   const StandstillDetector& detector = world_.standstill_detector;
   const bool scene_moves = standstill && standstill->scene_moves;
   const bool may_move = !world_.odometry.started() || detector.doubts_camera();
-  world_.unfelt_motion.Add(ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns),
-                           scene_moves || (may_move && detector.sees_unfelt_motion()));
+  const double interval = ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns);
+  world_.unfelt_motion.Add(interval, scene_moves || (may_move && detector.sees_unfelt_motion()));
+  world_.unseen_motion.Add(interval, standstill && standstill->view_moves_along);
   if (!world_.odometry.started()) return Initialize(measurement);
   const bool ignores_features = scene_moves || detector.doubts_camera();
   return ignores_features ? Track(WithoutFeatures(measurement), standstill, features_observed)
@@ -91,21 +95,28 @@ EstimatorOutput Estimator::Initialize(const FrameMeasurement& measurement) {
   world_.bridge.AddLost(measurement.imu, measurement.t_ns);
   auto result = world_.initializer.Add(measurement);
   const double milliseconds = stopwatch.Milliseconds();
+  std::string reason = world_.initializer.reason();
   EstimatorOutput output;
   if (result) {
     InitialUncertainty uncertainty = UncertaintyOf(config_.sensor, result->from_standstill);
     // A bias along gravity shows; it is hardly larger than those across, which tilt the start.
     uncertainty.accel_bias = std::max(uncertainty.accel_bias, result->accel_bias);
     const bool is_bridged = world_.bridge.begun() && KeepFrame(&*result, &uncertainty);
-    output = world_.odometry.Start(*result, uncertainty);
-    output.bridged = is_bridged;
-    output.restarted = world_.bridge.begun() && !is_bridged;
+    auto started = world_.odometry.Start(*result, uncertainty);
+    if (started) {
+      output = std::move(*started);
+      output.bridged = is_bridged;
+      output.restarted = world_.bridge.begun() && !is_bridged;
+    } else {
+      world_.odometry = WindowOdometry(config_, options_);
+      reason = kContradictedStart;
+    }
   } else {
     output.restarted = !world_.bridge.CanConnect(world_.initializer.begin_ns());
   }
-  output.reason = output.restarted ? world_.bridge.why() : world_.initializer.reason();
+  output.reason = output.restarted ? world_.bridge.why() : reason;
   output.timings.initialization = milliseconds;
-  if (result || output.restarted) world_.bridge.Clear();
+  if (output.has_pose || output.restarted) world_.bridge.Clear();
   return output;
 }
 
@@ -141,6 +152,7 @@ bool Estimator::GiveUp(const Failure& failure) {
   PerWorld lost = std::exchange(world_, PerWorld(config_, options_));
   world_.newest = lost.newest;
   world_.unfelt_motion = lost.unfelt_motion;
+  world_.unseen_motion = lost.unseen_motion;
   world_.initializer.KeepRotation(lost.initializer);
   const bool begins_world = failure.has_drifted || !lost.bridge.Begin(failure.why);
   if (!begins_world) world_.bridge = std::move(lost.bridge);

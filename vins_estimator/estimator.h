@@ -40,8 +40,8 @@ class Estimator {
   // Returns whether the images have shown motion for long that the IMU does not measure.
   bool SeesUnfeltMotion() const { return world_.unfelt_motion.IsLong(); }
 
-  // Returns whether the corners rest in the newest images while the IMU shows motion.
-  bool FeelsUnseenMotion() const { return world_.standstill_detector.feels_unseen_motion(); }
+  // Returns whether the view has moved along with the body for long, as in a lift.
+  bool ViewMovesAlong() const { return world_.unseen_motion.IsLong(); }
 
   // Current estimate of the time offset td [s], with which MeasurementSync should cut the IMU
   // samples.
@@ -53,7 +53,7 @@ class Estimator {
     PerWorld(const Config& config, const EstimatorOptions& options);
 
     std::optional<MeasurementEnd> newest;
-    RecentTime unfelt_motion;
+    RecentTime unfelt_motion, unseen_motion;
     Initializer initializer;
     StandstillDetector standstill_detector;
     std::optional<RollingShutter> rolling_shutter;  // if the camera has one

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/window_odometry.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -14,16 +16,36 @@ namespace {
 
 constexpr double kNewStart = 1.5;  // [s]
 
+// After a start in motion, velocity and scale depend on the accelerometer alone, whose errors are
+// not white: slow vibration, scale. Factor on the stated variance at the start, minus one, and the
+// time in which it decays.
+constexpr double kNotWhite = 1.0, kDecay = 4;  // [1], [s]
+
+// Returns whether the optimized window is another solution than the initial states, which have
+// fewer points but the same measurements: correct starts move by up to a sixth of the path.
+bool Contradicts(const SlidingWindow& window, const std::vector<InitialFrame>& initial) {
+  constexpr double kMostShare = 0.5, kAlways = 0.05;  // [1], [m]
+  double path = 0, change = 0;
+  for (size_t i = 0; i < initial.size(); ++i) {
+    const Eigen::Vector3d p_W = initial[i].state.position();
+    path = std::max(path, (p_W - initial.front().state.position()).norm());
+    change = std::max(change, (window.frames[i].state.position() - p_W).norm());
+  }
+  return change > kMostShare * path + kAlways;
+}
+
 }  // namespace
 
 WindowOdometry::WindowOdometry(const Config& config, const EstimatorOptions& options)
     : config_(&config), options_(&options), optimizer_(config, options) {}
 
-EstimatorOutput WindowOdometry::Start(const InitializationResult& result,
-                                      const InitialUncertainty& uncertainty) {
+std::optional<EstimatorOutput> WindowOdometry::Start(const InitializationResult& result,
+                                                     const InitialUncertainty& uncertainty) {
   Fill(result, uncertainty);
   const Step step = optimizer_.SolveFirst();
+  if (Contradicts(window(), result.frames)) return std::nullopt;
   started_ = true;
+  from_standstill_ = result.from_standstill;
   start_ns_ = window().newest().state.t_ns;
   depth_evidence_.Begin(window().newest().state.position(), !result.from_standstill);
   return Describe(step);
@@ -89,6 +111,9 @@ WindowOdometry::Tracked WindowOdometry::Track(
 void WindowOdometry::SetStandstill(
     const std::optional<StandstillDetector::Standstill>& standstill) {
   SlidingWindow& window = optimizer_.mutable_estimate()->map.window;
+  if (standstill && standstill->view_moves_along) {
+    window.IgnoreAccelerationSince(standstill->since_ns);
+  }
   const bool moves = standstill && standstill->common_px > options_->max_motion_at_rest_px;
   if (!standstill || (moves && MedianDepth())) {
     window.SetStillSince(std::nullopt);
@@ -153,10 +178,13 @@ EstimatorOutput WindowOdometry::Describe(const Step& step) const {
   output.status = EstimatorStatus::kTracking;
   output.has_pose = true;
   optimizer_.Describe(&output);
-  if (const auto& covariance = step.solution.covariance) {
-    output.uncertainty = {covariance->topLeftCorner<6, 6>(), covariance->block<3, 3>(6, 6),
-                          BodyVelocityCovariance(output.state, covariance->block<6, 6>(3, 3)),
-                          covariance->bottomRightCorner<6, 6>()};
+  if (step.solution.covariance) {
+    const double age = ToSeconds(output.state.t_ns - start_ns_);
+    const double factor = 1 + (from_standstill_ ? 0 : kNotWhite * std::exp(-age / kDecay));
+    const Matrix15d covariance = factor * *step.solution.covariance;
+    output.uncertainty = {covariance.topLeftCorner<6, 6>(), covariance.block<3, 3>(6, 6),
+                          BodyVelocityCovariance(output.state, covariance.block<6, 6>(3, 3)),
+                          covariance.bottomRightCorner<6, 6>()};
   }
   output.contradicted = estimate_monitor_.contradicted();
   const int fitting = step.counts.known_seen - step.counts.known_rejected;

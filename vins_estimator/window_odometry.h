@@ -37,8 +37,10 @@ class WindowOdometry {
     std::vector<std::vector<PixelResidual>> residuals;
   };
 
-  // Fills the window with the initial frames and optimizes it.
-  EstimatorOutput Start(const InitializationResult& result, const InitialUncertainty& uncertainty);
+  // Fills the window with the initial frames and optimizes it. Returns nullopt if this contradicts
+  // the initial states; the object must not be used then.
+  std::optional<EstimatorOutput> Start(const InitializationResult& result,
+                                       const InitialUncertainty& uncertainty);
   bool started() const { return started_; }
 
   // Median depth of the known points in the newest image [m]; nullopt if there are few, or if no
@@ -72,7 +74,7 @@ class WindowOdometry {
 
   const Config* config_;
   const EstimatorOptions* options_;
-  bool started_ = false;
+  bool started_ = false, from_standstill_ = false;
   int64_t start_ns_ = 0;  // time of the first pose
   DepthEvidence depth_evidence_;
   WindowOptimizer optimizer_;

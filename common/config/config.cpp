@@ -136,28 +136,9 @@ class Loader {
       config_.warnings.push_back(config_.file +
                                  ": keys without effect: " + JoinWords(ignored_, ", "));
     }
-    if (LacksMask(entries_, config_)) {
-      config_.warnings.push_back(At("fisheye") +
-                                 "fisheye_mask is not set, so features are allowed everywhere; "
-                                 "name an image file, or set fisheye: 0");
-    }
-    if (LeavesMaskOut(config_)) {
-      config_.warnings.push_back(At("fisheye_mask") +
-                                 "has no effect with fisheye: 0; set fisheye: 1 to use it");
-    }
-    const std::vector<CameraSensor>& cameras = config_.sensor.cameras;
-    for (size_t i = 0; i < cameras.size(); ++i) {
-      WarnOfFold(cameras[i].parameters, CameraPrefix(static_cast<int>(i)));
-    }
-  }
-
-  void WarnOfFold(const CameraParameters& camera, const std::string& prefix) {
-    const int percent = PercentBeyondFold(config_, camera);
-    if (percent == 0) return;
-    config_.warnings.push_back(
-        At(prefix + "model_type") + std::to_string(percent) +
-        " % of the image has no viewing ray with this distortion and gets no features; check that "
-        "the coefficients belong to this model and image size");
+    CheckIntention(entries_, config_, [this](const std::string& key, const std::string& text) {
+      config_.warnings.push_back(At(key) + text);
+    });
   }
 
   void Add(const std::string& key, const std::string& problem) {

@@ -137,9 +137,6 @@ void CheckImages(const Config& config, const Report& report) {
     if (config.points.min_dist >= std::min(camera.width, camera.height)) {
       report("min_dist", "must be smaller than the image");
     }
-    if (2 * config.lines.border >= std::min(camera.width, camera.height) - 1) {
-      report("line_border", "covers the whole image; reduce it");
-    }
   }
 }
 
@@ -191,11 +188,27 @@ double ShareWithoutRay(const CameraModel& camera) {
   const CameraParameters& parameters = camera.parameters();
   int without = 0;
   for (int i = 0; i < kColumns * kRows; ++i) {
-    const Eigen::Vector2d share((i % kColumns + 0.5) / kColumns, (i / kColumns + 0.5) / kRows);
+    const int column = i % kColumns, row = i / kColumns;
+    const Eigen::Vector2d share((column + 0.5) / kColumns, (row + 0.5) / kRows);
     const Eigen::Vector2d size(parameters.width, parameters.height);
     if (!camera.Unproject(share.cwiseProduct(size))) ++without;
   }
   return static_cast<double>(without) / (kColumns * kRows);
+}
+
+// Reports pixels without rays, and so without features, because the distortion folds back inside
+// the image. Pixels of a fisheye at 90 degrees and beyond do not count.
+void CheckFold(const CameraParameters& parameters, const std::string& prefix,
+               const Report& report) {
+  const auto camera = CameraModel::Create(parameters);
+  const Eigen::Vector3d sideways(1, 0, 0.02);
+  if (camera->Project(sideways)) return;  // only pixels not in front of the camera lack rays
+  const double share = ShareWithoutRay(*camera);
+  if (share <= kHardlyAnything) return;
+  report(prefix + "model_type",
+         std::to_string(std::lround(100 * share)) +
+             " % of the image has no viewing ray with this distortion and gets no features; check "
+             "that the coefficients belong to this model and image size");
 }
 
 void CheckMask(const Config& config, const Report& report) {
@@ -226,21 +239,22 @@ void CheckTogether(const ConfigEntries& entries, const Config& config, const Rep
   CheckMask(config, report);
 }
 
-bool LacksMask(const ConfigEntries& entries, const Config& config) {
-  return Has(entries, "fisheye") && config.points.fisheye && MaskPath(config).empty();
-}
-
-bool LeavesMaskOut(const Config& config) {
-  return !config.points.fisheye_mask.empty() && !config.points.fisheye;
-}
-
-int PercentBeyondFold(const Config& config, const CameraParameters& parameters) {
-  if (!MaskPath(config).empty()) return 0;
-  const auto camera = CameraModel::Create(parameters);
-  const Eigen::Vector3d sideways(1, 0, 0.02);
-  if (camera->Project(sideways)) return 0;  // only pixels not in front of the camera lack rays
-  const double share = ShareWithoutRay(*camera);
-  return share > kHardlyAnything ? static_cast<int>(std::lround(100 * share)) : 0;
+void CheckIntention(const ConfigEntries& entries, const Config& config, const Report& report) {
+  const PointTrackerConfig& points = config.points;
+  // VINS-Mono then uses a mask of its own, which does not exist here.
+  if (Has(entries, "fisheye") && points.fisheye && MaskPath(config).empty()) {
+    report(
+        "fisheye",
+        "fisheye_mask is not set, so features are allowed everywhere; name an image file, or set "
+        "fisheye: 0");
+  }
+  if (!points.fisheye_mask.empty() && !points.fisheye) {
+    report("fisheye_mask", "has no effect with fisheye: 0; set fisheye: 1 to use it");
+  }
+  if (!MaskPath(config).empty()) return;
+  for (size_t i = 0; i < config.sensor.cameras.size(); ++i) {
+    CheckFold(config.sensor.cameras[i].parameters, CameraPrefix(static_cast<int>(i)), report);
+  }
 }
 
 void FinishConfig(const ConfigEntries& entries, Config* config) {

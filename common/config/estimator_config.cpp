@@ -21,12 +21,9 @@ ConfigKeys EstimatorKeys(EstimatorConfig* estimator) {
       Key::Number("line_merge_distance", "m", {0.001, 10}, &estimator->line_merge_distance),
       Key::Number("line_merge_image_distance", "px", {0.1, 100},
                   &estimator->line_merge_image_distance),
-      Key::Number("line_merge_angle", "deg", {0.1, 45}, &estimator->line_merge_angle),
       Key::Integer("line_anchors", "", {0, 100}, &estimator->line_anchors),
       Key::Flag("manhattan_constraints", &estimator->manhattan_constraints),
-      Key::Number("manhattan_noise", "deg", {0.01, 20}, &estimator->manhattan_noise),
       Key::Flag("zero_velocity_update", &estimator->zero_velocity_update),
-      Key::Flag("verbose", &estimator->verbose),
   };
 }
 

@@ -22,13 +22,10 @@ struct EstimatorConfig {
   bool line_merging = true;                // merge landmarks of the same line
   double line_merge_distance = 0.1;        // between lines that are merged, in space [m]
   double line_merge_image_distance = 5.0;  // between lines that are merged, in the image [px]
-  double line_merge_angle = 3.0;           // between the directions of lines that are merged [deg]
   int line_anchors = 24;                   // frames kept as anchors for recognized lines
   bool manhattan_constraints = true;       // lines along a Manhattan axis constrain the heading
-  double manhattan_noise = 1.0;            // standard deviation of a line from its axis [deg]
 
   bool zero_velocity_update = true;
-  bool verbose = false;
 };
 
 ConfigKeys EstimatorKeys(EstimatorConfig* estimator);

@@ -13,9 +13,6 @@ ConfigKeys LineTrackerKeys(LineTrackerConfig* lines) {
                                     &lines->line_detector),
       Key::Integer("max_line_cnt", "lines", {1, 5000}, &lines->max_lines),
       Key::Number("line_min_length", "", {0.01, 1}, &lines->min_length),
-      Key::Number("line_min_dist", "px", {0, 100}, &lines->spacing),
-      Key::Number("line_min_gradient", "gray levels/px", {0.1, 255}, &lines->min_gradient),
-      Key::Number("line_border", "px", {1, 500}, &lines->border),
       Key::Flag("line_half_resolution", &lines->half_resolution),
   };
 }

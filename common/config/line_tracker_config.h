@@ -12,9 +12,6 @@ struct LineTrackerConfig {
   bool half_resolution = true;  // detect at half resolution; refinement is at full resolution
   int max_lines = 45;           // lines per image
   double min_length = 0.08;     // minimum length, relative to the image's short side
-  double border = 4;            // minimum distance from the image border [px]
-  double min_gradient = 5;      // minimum gradient across a line [gray levels/px]
-  double spacing = 5;           // minimum distance between parallel lines side by side [px]
 };
 
 ConfigKeys LineTrackerKeys(LineTrackerConfig* lines);

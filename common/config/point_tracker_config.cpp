@@ -20,7 +20,6 @@ ConfigKeys PointTrackerKeys(PointTrackerConfig* points) {
       Key::Text("fisheye_mask", &points->fisheye_mask),
       Key::Integer("klt_window", "px", {5, 101}, &points->klt_window),
       Key::Integer("klt_levels", "", {0, 8}, &points->klt_levels),
-      Key::Number("forward_backward", "px", {0.01, 20}, &points->forward_backward),
   };
 }
 

@@ -16,7 +16,6 @@ namespace plm_vins {
 namespace {
 
 constexpr size_t kValuesPerChannel = 5;
-constexpr char kManhattan[] = "manhattan";
 
 geometry_msgs::Point32 Nowhere() {
   return ToPoint32(Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
@@ -41,19 +40,14 @@ int CameraIn(const sensor_msgs::ChannelFloat32& channel) {
   return camera >= 0 && camera < kMaxCameras ? static_cast<int>(camera) : -1;
 }
 
-bool HasManhattanFrame(const sensor_msgs::PointCloud& message) {
-  return !message.channels.empty() && message.channels.back().name == kManhattan;
-}
-
 // Validates that there is one channel for each feature, which has `points_each` points.
 void CheckLayout(const sensor_msgs::PointCloud& message, size_t points_each) {
-  const size_t features = message.channels.size() - (HasManhattanFrame(message) ? 1 : 0);
-  if (message.points.size() != points_each * features) {
+  if (message.points.size() != points_each * message.channels.size()) {
     throw std::invalid_argument(
         "keyframe message: the number of channels differs from the number of features");
   }
-  for (size_t i = 0; i < features; ++i) {
-    if (message.channels[i].values.size() < kValuesPerChannel) {
+  for (const sensor_msgs::ChannelFloat32& channel : message.channels) {
+    if (channel.values.size() < kValuesPerChannel) {
       throw std::invalid_argument("keyframe message: a channel has fewer than five values");
     }
   }
@@ -93,9 +87,8 @@ std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message, int
   return corners;
 }
 
-sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments,
-                                        const std::optional<Eigen::Quaterniond>& R_O_Manhattan,
-                                        int64_t t_ns, const std::string& frame_id) {
+sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments, int64_t t_ns,
+                                        const std::string& frame_id) {
   sensor_msgs::PointCloud cloud = EmptyCloud(t_ns, frame_id);
   for (const TrackedSegment& segment : segments) {
     const bool is_placed = segment.landmark.has_value();
@@ -103,14 +96,6 @@ sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segme
     cloud.points.push_back(is_placed ? ToPoint32(segment.landmark->end_O) : Nowhere());
     const LineObservation& seen = segment.observation;
     cloud.channels.push_back(ToChannel(seen.start, seen.end, seen.id, seen.camera));
-  }
-  if (R_O_Manhattan) {
-    sensor_msgs::ChannelFloat32& channel = cloud.channels.emplace_back();
-    channel.name = kManhattan;
-    for (const double value :
-         {R_O_Manhattan->w(), R_O_Manhattan->x(), R_O_Manhattan->y(), R_O_Manhattan->z()}) {
-      channel.values.push_back(static_cast<float>(value));
-    }
   }
   return cloud;
 }
@@ -132,20 +117,6 @@ std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message, i
   }
   *left_out += static_cast<int64_t>(message.points.size() / 2 - segments.size());
   return segments;
-}
-
-std::optional<Eigen::Quaterniond> ToManhattanFrame(const sensor_msgs::PointCloud& message) {
-  if (!HasManhattanFrame(message)) return std::nullopt;
-  const auto& values = message.channels.back().values;
-  if (values.size() != 4) {
-    throw std::invalid_argument(
-        "keyframe message: the Manhattan frame must have four values (quaternion)");
-  }
-  const Eigen::Quaterniond R_O_Manhattan(values[0], values[1], values[2], values[3]);
-  if (!(R_O_Manhattan.norm() > 0) || !R_O_Manhattan.coeffs().allFinite()) {
-    throw std::invalid_argument("keyframe message: the Manhattan frame is not a valid rotation");
-  }
-  return R_O_Manhattan.normalized();
 }
 
 }  // namespace plm_vins

@@ -4,9 +4,7 @@
 
 #include <sensor_msgs/PointCloud.h>
 
-#include <Eigen/Geometry>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,14 +23,10 @@ std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message, int
 
 // ~keyframe_line has both 3-D endpoints of each line, NaN without a position, and one channel for
 // each line, with the endpoints x, y, x, y (normalized), the id and, unless it is 0, the number of
-// the camera. Lines without a position matter
-// as well: they confirm lines of an earlier visit. If the scene has a Manhattan frame, the last
-// channel, named after it, has R_O_Manhattan as w, x, y, z. Reading checks lines as it checks
-// points, and throws std::invalid_argument if R_O_Manhattan is not a rotation.
-sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments,
-                                        const std::optional<Eigen::Quaterniond>& R_O_Manhattan,
-                                        int64_t t_ns, const std::string& frame_id);
+// the camera. Lines without a position matter as well: they confirm lines of an earlier visit.
+// Reading checks lines as it checks points.
+sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments, int64_t t_ns,
+                                        const std::string& frame_id);
 std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message, int64_t* left_out);
-std::optional<Eigen::Quaterniond> ToManhattanFrame(const sensor_msgs::PointCloud& message);
 
 }  // namespace plm_vins

@@ -15,6 +15,7 @@ constexpr int kMaxIterations = 30;
 constexpr double kConverged_px = 0.03;
 constexpr float kStandstill_px = 0.01F;  // a step that reverts the previous one oscillates
 constexpr int kBackwardLevels = 0;  // coarsest level of the backward search, whose end is known
+constexpr double kMaxReturnError_px = 0.5;  // of the forward and backward search together
 
 bool IsInside(const cv::Mat& image, const cv::Point2f& point) {
   return point.x >= 0 && point.y >= 0 && point.x <= static_cast<float>(image.cols - 1) &&
@@ -75,7 +76,7 @@ std::vector<FlowResult> OpticalFlow::Track(const Pyramid& previous, const Pyrami
         Search(previous, current, config_.klt_levels, points[i], predicted[i], &window);
     if (!there || !IsInside(current.front(), *there)) continue;
     const auto back = Search(current, previous, kBackwardLevels, *there, points[i], &window);
-    const bool consistent = back && cv::norm(*back - points[i]) <= config_.forward_backward;
+    const bool consistent = back && cv::norm(*back - points[i]) <= kMaxReturnError_px;
     results[i] = {*there,
                   consistent ? FlowResult::Status::kTracked : FlowResult::Status::kInconsistent};
   }

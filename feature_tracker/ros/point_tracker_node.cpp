@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "feature_tracker/ros/point_tracker_node.h"
 
-#include <plm_vins/FeatureTrackerConfig.h>
-
 #include <string>
 
 #include "feature_tracker/point_tracking_stage.h"
@@ -14,7 +12,6 @@ namespace {
 // Traits of the point tracker for TrackerNode.
 struct PointNodeTraits {
   using Stage = PointTrackingStage;
-  using Settings = FeatureTrackerConfig;
 
   static constexpr char kFeatureTopic[] = "feature";
   static constexpr char kAnnotatedTopic[] = "feature_img";
@@ -25,15 +22,6 @@ struct PointNodeTraits {
   static std::string Finding(const PointTracker& tracker) {
     const std::string still_parts = tracker.StillPartsFinding();
     return still_parts.empty() ? tracker.PairFinding() : still_parts;
-  }
-  static Settings ToSettings(const Config& config) {
-    Settings settings = Settings::__getDefault__();  // initializes its groups as well
-    settings.max_cnt = config.points.max_cnt;
-    settings.show_track = config.show_track;
-    return settings;
-  }
-  static void Apply(const Settings& settings, PointTracker* tracker) {
-    tracker->SetMaxCorners(settings.max_cnt);
   }
 };
 

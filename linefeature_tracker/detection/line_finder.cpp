@@ -53,7 +53,7 @@ std::vector<LineSegment> LineFinder::Undistort(const cv::Mat& image,
   for (const LineSegment& fragment : fragments_px) {
     const LineSegment oriented = OrientByBrightness(image, fragment);
     const LineSegment full_px{scale * oriented.start, scale * oriented.end};
-    if (!camera_->IsInImage(full_px.Midpoint(), config_.border)) continue;
+    if (!camera_->IsInImage(full_px.Midpoint(), kLineBorder_px)) continue;
     const auto segment = UnprojectSegment(*camera_, full_px);
     if (segment) segments.push_back(*segment);
   }

@@ -23,6 +23,7 @@ constexpr int kFineSearch_px = 2;      // after the rough placement
 constexpr int kExtension = 3;          // samples beyond each endpoint
 constexpr int kMaxGap = 2;             // samples without an edge inside a line
 constexpr double kMinSupport = 0.6;    // share of samples with an edge
+constexpr double kMinGradient = 5;     // across a line [gray levels/px]
 constexpr double kMaxResidual_px = 1;  // residual of a supporting sample
 constexpr size_t kMinPoints = 5;
 constexpr size_t kMinFinalPoints = 3;  // between the endpoints; two would be fitted by any line
@@ -68,8 +69,7 @@ LineOffset FitOffset(const std::vector<EdgePoint>& points) {
 
 LineRefinement::LineRefinement(const LineTrackerConfig& config,
                                std::shared_ptr<const CameraModel> camera, const cv::Mat& mask)
-    : config_(config),
-      camera_(std::move(camera)),
+    : camera_(std::move(camera)),
       mask_(mask),
       min_length_px_(config.min_length *
                      std::min(camera_->parameters().width, camera_->parameters().height)) {}
@@ -151,7 +151,7 @@ std::vector<LineRefinement::EdgePoint> LineRefinement::LocateEdges(const cv::Mat
 }
 
 bool LineRefinement::IsVisible(const Eigen::Vector2d& pixel) const {
-  return camera_->IsInImage(pixel, config_.border) &&
+  return camera_->IsInImage(pixel, kLineBorder_px) &&
          MaskAllows(mask_, {cvRound(pixel.x()), cvRound(pixel.y())});
 }
 
@@ -172,7 +172,7 @@ void LineRefinement::LocateEdge(const cv::Mat& image, int search_px, EdgePoint* 
     const float center_rise = rise(j);
     const float closeness =
         1 - 0.5F * static_cast<float>(std::abs(j)) / static_cast<float>(search_px + 1);
-    if (center_rise < config_.min_gradient || center_rise * closeness <= best) continue;
+    if (center_rise < kMinGradient || center_rise * closeness <= best) continue;
     const float before = rise(j - 1);
     const float after = rise(j + 1);
     if (center_rise < before || center_rise < after) continue;

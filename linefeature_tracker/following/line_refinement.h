@@ -50,7 +50,6 @@ class LineRefinement {
   std::optional<LineSegment> SupportedPart(const LineSegment& line, double step,
                                            const std::vector<EdgePoint>& points) const;
 
-  LineTrackerConfig config_;
   std::shared_ptr<const CameraModel> camera_;
   cv::Mat mask_;  // see ReadMask()
   double min_length_px_;

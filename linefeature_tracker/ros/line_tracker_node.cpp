@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linefeature_tracker/ros/line_tracker_node.h"
 
-#include <plm_vins/LineFeatureTrackerConfig.h>
-
 #include <string>
 
 #include "common/ros/optional_node.h"
@@ -15,7 +13,6 @@ namespace {
 // Traits of the line tracker for TrackerNode.
 struct LineNodeTraits {
   using Stage = LineTrackingStage;
-  using Settings = LineFeatureTrackerConfig;
 
   static constexpr char kFeatureTopic[] = "linefeature";
   static constexpr char kAnnotatedTopic[] = "linefeature_img";
@@ -27,15 +24,6 @@ struct LineNodeTraits {
 
   // The point tracker judges the pairs of cameras.
   static std::string Finding(const LineTracker&) { return ""; }
-  static Settings ToSettings(const Config& config) {
-    Settings settings = Settings::__getDefault__();  // initializes its groups as well
-    settings.max_line_cnt = config.lines.max_lines;
-    settings.show_track = config.show_track;
-    return settings;
-  }
-  static void Apply(const Settings& settings, LineTracker* tracker) {
-    tracker->SetMaxLines(settings.max_line_cnt);
-  }
 };
 
 struct LineSwitch {

@@ -38,6 +38,8 @@ inline std::optional<SegmentSample> SampleSegment(const CameraModel& camera,
                        norm / J.determinant()};
 }
 
+constexpr double kLineBorder_px = 4;  // least distance of lines from the border of the image
+
 // Convert a segment from normalized coordinates to raw pixels, and back. Return nullopt if an
 // endpoint cannot be converted.
 inline std::optional<LineSegment> ProjectSegment(const CameraModel& camera,

@@ -16,11 +16,11 @@
 #include "common/ros/robot_base.h"
 #include "mavros_relay/body_odometry.h"
 #include "mavros_relay/relay_gate.h"
-#include "mavros_relay/transform_text.h"
 
 namespace plm_vins {
 namespace {
 
+constexpr double kRate = 30;      // of the relayed states, unless ~rate is set [Hz]
 constexpr double kSilence = 1.0;  // wall time without states that counts as silence [s]
 
 BodyOdometry ToBodyOdometry(const nav_msgs::Odometry& message) {
@@ -44,10 +44,9 @@ nav_msgs::Odometry ToMessage(const BodyOdometry& odometry) {
   return message;
 }
 
-// Parameters: ~rate [Hz], ~max_age [s] and ~min_pause [s] of RelayGate; ~odom_frame and
-// ~base_frame, names in the tf tree of mavros; ~imu_to_base, the pose of the base in the IMU frame
-// in the format of ParseTransform(), by default from tf. ~reset_counter (latched) counts, modulo
-// 256, the interruptions after which relaying resumed.
+// Parameters: ~rate [Hz] of RelayGate; ~odom_frame and ~base_frame, names in the tf tree of mavros.
+// tf has the pose of the base in the body. ~reset_counter (latched) counts, modulo 256, the
+// interruptions after which relaying resumed.
 class MavrosRelayNode {
  public:
   MavrosRelayNode();
@@ -55,23 +54,18 @@ class MavrosRelayNode {
  private:
   void AddImage(const nav_msgs::Odometry&) { gate_.AddImage(); }
   void AddState(const nav_msgs::Odometry& odometry);
-  // Pose of the base in the body frame; nullopt while tf does not have it.
-  std::optional<Rigid3d> LocateBase(const std::string& body_frame);
   void ReportStop(const char* why);
   void ReportGoingOn();
-  RelayGate::Options ReadOptions() const;
   std::string ReadFrame(const std::string& parameter, const std::string& otherwise) const;
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_{"~"};
   const std::string odom_frame_ = ReadFrame("odom_frame", "odom");
   const std::string base_frame_ = ReadFrame("base_frame", "base_link");
-  RelayGate gate_{ReadOptions()};
+  RelayGate gate_{FindParameter<double>(private_node_, "rate").value_or(kRate)};
   bool is_relayed_ = false;                          // last reported state
-  int64_t reported_resets_ = 0;                      // last reported number of resets
   ros::WallTime last_state_ = ros::WallTime::now();  // arrival of the last valid state
-  std::optional<Rigid3d> T_body_base_;
-  std::optional<RobotBase> base_;  // from tf, if ~imu_to_base is not given
+  std::optional<RobotBase> base_;                    // set by the first state, which names the body
   ros::Publisher publisher_ = node_.advertise<nav_msgs::Odometry>("mavros/odometry/out", 10);
   ros::Publisher counter_ = private_node_.advertise<std_msgs::UInt8>("reset_counter", 1, true);
   ros::Subscriber images_;
@@ -81,11 +75,6 @@ class MavrosRelayNode {
 
 MavrosRelayNode::MavrosRelayNode() {
   const auto no_delay = ros::TransportHints().tcpNoDelay();
-  const auto imu_to_base = FindParameter<std::string>(private_node_, "imu_to_base");
-  if (imu_to_base) {
-    T_body_base_ =
-        ParseTransform("parameter " + private_node_.resolveName("imu_to_base"), *imu_to_base);
-  }
   counter_.publish(std_msgs::UInt8());
   images_ =
       node_.subscribe("vins_estimator/odometry", 100, &MavrosRelayNode::AddImage, this, no_delay);
@@ -100,20 +89,9 @@ MavrosRelayNode::MavrosRelayNode() {
       });
 }
 
-RelayGate::Options MavrosRelayNode::ReadOptions() const {
-  RelayGate::Options options;
-  const auto read = [this](const char* name, double* value) {
-    *value = FindParameter<double>(private_node_, name).value_or(*value);
-  };
-  read("rate", &options.rate);
-  read("max_age", &options.max_age);
-  read("min_pause", &options.min_pause);
-  return options;
-}
-
 std::string MavrosRelayNode::ReadFrame(const std::string& parameter,
                                        const std::string& otherwise) const {
-  const auto frame = FindParameter<std::string>(private_node_, parameter).value_or(otherwise);
+  auto frame = FindParameter<std::string>(private_node_, parameter).value_or(otherwise);
   if (const auto problem = CheckFrameName(frame)) {
     throw std::runtime_error("parameter " + private_node_.resolveName(parameter) + ": \"" + frame +
                              "\" " + *problem);
@@ -123,7 +101,8 @@ std::string MavrosRelayNode::ReadFrame(const std::string& parameter,
 
 void MavrosRelayNode::AddState(const nav_msgs::Odometry& odometry) {
   const BodyOdometry body = ToBodyOdometry(odometry);
-  const auto T_body_base = LocateBase(odometry.child_frame_id);
+  if (!base_) base_.emplace(odometry.child_frame_id, base_frame_);
+  const std::optional<Rigid3d> T_body_base = base_->Locate();
   if (!T_body_base || !body.IsUsable()) return;
   last_state_ = ros::WallTime::now();
   const bool passes = gate_.Pass(ToNanoseconds(odometry.header.stamp));
@@ -140,26 +119,17 @@ void MavrosRelayNode::AddState(const nav_msgs::Odometry& odometry) {
   publisher_.publish(message);
 }
 
-std::optional<Rigid3d> MavrosRelayNode::LocateBase(const std::string& body_frame) {
-  if (T_body_base_) return T_body_base_;
-  if (!base_) base_.emplace(body_frame, base_frame_);
-  return base_->Locate();
-}
-
 void MavrosRelayNode::ReportStop(const char* why) {
   if (!is_relayed_) return;
   is_relayed_ = false;
   ROS_WARN("the estimate is not relayed: %s", why);
 }
 
-// If all input paused, the gate detects the pause only at the first state after it, which it
-// relays.
 void MavrosRelayNode::ReportGoingOn() {
-  if (is_relayed_ && gate_.resets() == reported_resets_) return;
+  if (is_relayed_) return;
   is_relayed_ = true;
-  reported_resets_ = gate_.resets();
   std_msgs::UInt8 count;
-  count.data = static_cast<uint8_t>(reported_resets_);
+  count.data = static_cast<uint8_t>(gate_.resets());
   counter_.publish(count);
   ROS_INFO("the estimate is relayed, reset counter %d", count.data);
 }

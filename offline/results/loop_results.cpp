@@ -8,11 +8,9 @@
 
 #include "common/format.h"
 #include "common/stopwatch.h"
-#include "offline/results/loop_input.h"
-#include "pose_graph/output/colmap_writer.h"
-#include "pose_graph/output/g2o_writer.h"
 #include "pose_graph/output/loop_table.h"
 #include "vins_estimator/output/covariance_table.h"
+#include "vins_estimator/output/placed_features.h"
 #include "vins_estimator/output/tum_format.h"
 
 namespace plm_vins {
@@ -31,13 +29,36 @@ std::optional<MapBundle> BundleOf(const Config& config, double focal_length) {
   return MapBundle(options);
 }
 
+// Converts the result of an image with a pose to the input of loop closure. `restarted` means that
+// the world frame has changed since the previous image with a pose.
+OdometryFrame ToOdometryFrame(const PipelineFrame& frame, bool restarted) {
+  const EstimatorOutput& output = frame.output;
+  OdometryFrame result;
+  result.t_ns = output.t_ns;
+  result.restarted = restarted;
+  result.T_O_B = output.state.T_W_B();
+  result.T_B_C.clear();
+  for (const CameraCalibration& camera : output.calibration.cameras) {
+    result.T_B_C.push_back(camera.T_B_C);
+    result.refined.push_back(camera.parameters);
+  }
+  // An unknown covariance is zero, so that odometry edges get the minimum of OdometryNoise.
+  if (output.uncertainty) result.covariance = output.uncertainty->pose;
+  result.corners = PlaceCorners(frame.points, output.points);
+  result.segments = PlaceSegments(frame.lines, output.lines);
+  for (size_t camera = 0; camera < frame.images.size(); ++camera) {
+    const ImageSample& image = frame.images[camera];
+    if (!image.gray.empty()) result.images[static_cast<int>(camera)] = {image.gray, image.owner};
+  }
+  return result;
+}
+
 }  // namespace
 
 LoopResults::LoopResults(const Config& config, const std::string& folder,
                          std::optional<KeyframeMap> map)
     : folder_(folder),
       cameras_(CreateAll(config.sensor.cameras)),
-      refined_camera_(cameras_[0]->parameters()),
       loops_(LoopCloserOptions(cameras_), cameras_),
       bundle_(BundleOf(config, cameras_[0]->FocalLength())),
       trajectory_(File("trajectory_map.tum")),
@@ -75,7 +96,6 @@ void LoopResults::Add(const PipelineFrame& frame) {
   const int newest = loops_.map().graph.size() - 1;
   poses_.push_back({frame.output.t_ns, T_O_B, newest});
   if (!closure.fix) return;
-  refined_camera_ = frame.output.calibration.cameras[0].parameters;
   const int64_t t_ns = frame.output.t_ns;
   trajectory_.Row(t_ns) << FormatTumRow(t_ns, closure.fix->T_M_O.ToRigid() * T_O_B);
   if (const auto& known = frame.output.uncertainty) {
@@ -128,10 +148,6 @@ void LoopResults::Finish() {
   covariance_.Close();
   table_.Close();
   WriteFinalTrajectory();
-  OutputFile g2o(File("pose_graph.g2o"));
-  WriteG2o(measured_map(), &g2o.stream());
-  g2o.Close();
-  WriteColmapModel(File("colmap"), refined_camera_, map());
 }
 
 // Poses of a world that is not connected with the map are written in that world, delimited by

@@ -25,8 +25,8 @@ namespace plm_vins {
 
 // Runs loop closure in an offline run and writes its files to the result folder: trajectory_map.tum
 // (causal estimates, from the first fix in the map on) with covariance_map.csv,
-// trajectory_final.tum (final estimates), loops.csv, pose_graph.g2o and the COLMAP model in
-// colmap/. At the end the whole map is bundle-adjusted.
+// trajectory_final.tum (final estimates) and loops.csv. At the end the whole map is
+// bundle-adjusted.
 class LoopResults {
  public:
   // Opens the files and starts from `map` if given. Throws std::runtime_error with the file name if
@@ -74,8 +74,7 @@ class LoopResults {
   Json BundleSummary() const;
 
   std::string folder_;
-  CameraModels cameras_;             // configured cameras
-  CameraParameters refined_camera_;  // camera 0 at the last pose in M; defines the keyframes' rays
+  CameraModels cameras_;  // configured cameras
   LoopCloser loops_;
   std::optional<MapBundle> bundle_;
   std::optional<Adjusted> adjusted_;

@@ -16,26 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kResults[] = {"trajectory.tum",
-                                    "covariance.csv",
-                                    "covariance_map.csv",
-                                    "timing.csv",
-                                    "summary.json",
-                                    "map.ply",
-                                    "lines.ply",
-                                    "lines.obj",
-                                    "tracks.png",
-                                    "line_tracks.png",
-                                    kCalibratedConfigFile,
-                                    "trajectory_map.tum",
-                                    "trajectory_final.tum",
-                                    "loops.csv",
-                                    "pose_graph.g2o",
-                                    "colmap/cameras.txt",
-                                    "colmap/images.txt",
-                                    "colmap/points3D.txt",
-                                    "evaluation.json",
-                                    "run.html"};
+constexpr const char* kResults[] = {
+    "trajectory.tum",       "covariance.csv",  "covariance_map.csv",  "timing.csv",
+    "summary.json",         "map.ply",         "lines.ply",           "lines.obj",
+    "tracks.png",           "line_tracks.png", kCalibratedConfigFile, "trajectory_map.tum",
+    "trajectory_final.tum", "loops.csv",       "evaluation.json",     "run.html"};
 
 // These may have parts, one before each backward jump of the timestamps.
 constexpr const char* kTimedResults[] = {"trajectory.tum", "covariance.csv", "trajectory_map.tum",
@@ -85,7 +70,6 @@ void RemoveEarlierResults(const std::string& folder, const std::string& config_f
     if (!fs::equivalent(file, config_file, error)) fs::remove(file, error);
   }
   for (const char* name : kTimedResults) RemoveParts(fs::path(folder) / name);
-  fs::remove(fs::path(folder) / "colmap", error);  // fails, as intended, if other files are in it
   RemoveTrackImages(fs::path(folder) / kTrackImages);
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -32,8 +31,7 @@ struct Keyframe {
   Rigid3d T_O_B;
   Matrix4d covariance = Matrix4d::Zero();  // covariance of T_O_B as (x, y, z, yaw), by odometry
   std::vector<Rigid3d> T_B_C{Rigid3d()};   // by camera
-  std::optional<Eigen::Quaterniond> R_O_Manhattan;
-  std::vector<DescribedCorner> corners;  // of all described cameras
+  std::vector<DescribedCorner> corners;    // of all described cameras
   std::vector<TrackedSegment> segments;
 
   int cameras() const { return static_cast<int>(T_B_C.size()); }

@@ -72,10 +72,8 @@ void KeyframeAssembly::AddCorners(int64_t t_ns, std::vector<TrackedCorner> corne
   parts.has_corners = true;
 }
 
-void KeyframeAssembly::AddSegments(int64_t t_ns, std::vector<TrackedSegment> segments,
-                                   const std::optional<Eigen::Quaterniond>& R_O_Manhattan) {
+void KeyframeAssembly::AddSegments(int64_t t_ns, std::vector<TrackedSegment> segments) {
   Parts& parts = PartsAt(t_ns);
-  parts.frame.R_O_Manhattan = R_O_Manhattan;
   parts.frame.segments = std::move(segments);
   parts.has_segments = true;
 }

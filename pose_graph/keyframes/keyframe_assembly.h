@@ -27,8 +27,7 @@ class KeyframeAssembly {
   void AddImage(int camera, const ImageSample& image);
   void AddPose(int64_t t_ns, const Rigid3d& T_O_B, const Eigen::Matrix<double, 6, 6>& covariance);
   void AddCorners(int64_t t_ns, std::vector<TrackedCorner> corners);
-  void AddSegments(int64_t t_ns, std::vector<TrackedSegment> segments,
-                   const std::optional<Eigen::Quaterniond>& R_O_Manhattan);
+  void AddSegments(int64_t t_ns, std::vector<TrackedSegment> segments);
 
   // Returns the next keyframe in temporal order, or nullopt if none is complete yet.
   std::optional<OdometryFrame> Pop();

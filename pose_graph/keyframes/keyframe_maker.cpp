@@ -113,7 +113,6 @@ Keyframe MakeKeyframe(const CornerSelectionOptions& options, const CameraModels&
   keyframe.T_O_B = frame.T_O_B;
   keyframe.covariance = LevelCovariance(frame.T_O_B, frame.covariance);
   keyframe.T_B_C = frame.T_B_C;
-  keyframe.R_O_Manhattan = frame.R_O_Manhattan;
   keyframe.segments = FollowedSegments(cameras, refined, frame);
   keyframe.corners = FollowedCorners(cameras, refined, frame);
   std::vector<DescribedCorner> described;

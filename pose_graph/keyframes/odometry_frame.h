@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -32,7 +31,6 @@ struct OdometryFrame {
   // The refined cameras, by which all rays are recomputed; empty if none is refined.
   std::vector<CameraParameters> refined;
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  // (p_O, theta_B)
-  std::optional<Eigen::Quaterniond> R_O_Manhattan;  // if a Manhattan frame was found
   std::vector<TrackedCorner> corners;
   std::vector<TrackedSegment> segments;
   std::map<int, CameraImage> images;  // by camera; those of them that are described

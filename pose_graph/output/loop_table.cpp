@@ -18,9 +18,9 @@ void WriteCount(const std::optional<int>& value, std::ostream* stream) {
   if (value) *stream << *value;
 }
 
-void WriteValue(const std::optional<double>& value, std::ostream* stream, double unit = 1) {
+void WriteValue(const std::optional<double>& value, std::ostream* stream) {
   if (value) {
-    WriteNumber(*value * unit, stream);
+    WriteNumber(*value, stream);
   } else {
     *stream << ',';
   }
@@ -30,11 +30,10 @@ void WriteValue(const std::optional<double>& value, std::ostream* stream, double
 
 void WriteLoopHeader(std::ostream* stream) {
   *stream
-      << "later_ns,earlier_ns,later,earlier,result,score_share,repeated,common_tracks,matches,pose_"
-         "inliers,"
-         "inliers,inlier_share,manhattan_error_deg,cells,backward_inliers,backward_share,"
-         "visible_lines,line_share,odometry_error_sigma,graph_error_sigma,x_m,y_m,z_m,yaw_deg,"
-         "later_camera,earlier_camera\n";
+      << "later_ns,earlier_ns,later,earlier,result,score_share,repeated,common_tracks,matches,"
+         "pose_inliers,inliers,inlier_share,cells,backward_inliers,backward_share,visible_lines,"
+         "line_share,odometry_error_sigma,graph_error_sigma,x_m,y_m,z_m,yaw_deg,later_camera,"
+         "earlier_camera\n";
 }
 
 void WriteLoopRow(const LoopCandidate& candidate, std::ostream* stream) {
@@ -48,7 +47,6 @@ void WriteLoopRow(const LoopCandidate& candidate, std::ostream* stream) {
   WriteCount(candidate.pose_inliers, stream);
   WriteCount(candidate.inliers, stream);
   WriteValue(candidate.inlier_share, stream);
-  WriteValue(candidate.manhattan_error, stream, kDegreesPerRadian);
   WriteCount(candidate.cells, stream);
   WriteCount(candidate.backward_inliers, stream);
   WriteValue(candidate.backward_share, stream);

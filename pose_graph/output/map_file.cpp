@@ -18,7 +18,7 @@ namespace plm_vins {
 namespace {
 
 constexpr char kSignature[] = "plm_vins map";
-constexpr uint32_t kVersion = 3;
+constexpr uint32_t kVersion = 4;
 
 // [FNV]: 64-bit FNV-1a. Detects accidental damage, not manipulation.
 uint64_t Checksum(const std::string& bytes) {
@@ -62,7 +62,6 @@ void Frame(Archive* archive, Struct& keyframe) {
   Pose(archive, keyframe.T_O_B);
   Values(archive, keyframe.covariance);
   archive->List(keyframe.T_B_C, [](auto* a, auto& T_B_C) { Pose(a, T_B_C); });
-  if (archive->Has(keyframe.R_O_Manhattan)) Values(archive, keyframe.R_O_Manhattan->coeffs());
   archive->List(keyframe.corners, [](auto* a, auto& corner) { Corner(a, corner); });
   archive->List(keyframe.segments, [](auto* a, auto& segment) { Segment(a, segment); });
 }

@@ -83,7 +83,7 @@ void KeyframeInput::AddPoints(const sensor_msgs::PointCloud& message) {
 void KeyframeInput::AddLines(const sensor_msgs::PointCloud& message) {
   CountFailure(&malformed_, [&] {
     assembly_.AddSegments(ToNanoseconds(message.header.stamp),
-                          ToSegments(message, &features_.count), ToManhattanFrame(message));
+                          ToSegments(message, &features_.count));
   });
 }
 

@@ -7,8 +7,8 @@ namespace plm_vins {
 
 const char* ToString(LoopGate gate) {
   static constexpr const char* kNames[kLoopGates] = {
-      "score",  "repeated",  "apart",      "matches", "pose",     "manhattan", "inliers",
-      "spread", "backwards", "refinement", "lines",   "odometry", "agreement", "graph"};
+      "score",     "repeated",   "apart", "matches",  "pose",      "inliers", "spread",
+      "backwards", "refinement", "lines", "odometry", "agreement", "graph"};
   return kNames[static_cast<int>(gate)];
 }
 

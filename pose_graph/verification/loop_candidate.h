@@ -18,7 +18,6 @@ enum class LoopGate {
   kApart,       // few common tracks: the keyframe belongs to another visit
   kMatches,     // enough corners match landmarks
   kPose,        // RANSAC finds a pose with enough inliers
-  kManhattan,   // the Manhattan frames agree on the heading
   kInliers,     // a guided search finds enough landmarks at their predicted pixels
   kSpread,      // the inliers are distributed over the image
   kBackwards,   // the earlier image observes the later landmarks as well
@@ -50,8 +49,7 @@ struct LoopCandidate {
   std::optional<int> pose_inliers;
   std::optional<int> inliers;
   std::optional<double> inlier_share;
-  std::optional<double> manhattan_error;  // [rad]
-  std::optional<int> cells;               // image cells with inliers
+  std::optional<int> cells;  // image cells with inliers
   std::optional<int> backward_inliers;
   std::optional<double> backward_share;
   std::optional<int> visible_lines;

@@ -2,13 +2,11 @@
 #include "pose_graph/verification/loop_verification.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <set>
 #include <utility>
 
-#include "common/geometry/so3.h"
 #include "pose_graph/verification/seen_point.h"
 
 namespace plm_vins {
@@ -127,7 +125,6 @@ LoopObservations LoopVerification::Verify(const Island& earlier, const Island& l
   evidence.all.T_O2_C = later.keyframe->T_O_C(later.camera);
   const bool accepted =
       AreApart(earlier, later, candidate, &evidence) && FindPose(earlier, candidate, &evidence) &&
-      ManhattanAgrees(*earlier.keyframe, *later.keyframe, candidate, evidence) &&
       HasInliers(candidate, &evidence) && HoldsBackwards(earlier, later, candidate, &evidence) &&
       Refine(candidate, &evidence) && LinesAgree(earlier, later, candidate, &evidence);
   if (accepted) {
@@ -166,20 +163,6 @@ bool LoopVerification::FindPose(const Island& earlier, LoopCandidate* candidate,
   for (const size_t i : pose->inliers) evidence->all.of_earlier.push_back(seen[i]);
   evidence->T_O1_O2 = pose->T_O_G * LevelTransform{0, T_O2_C.translation}.Inverse();
   return Refine(candidate, evidence);
-}
-
-bool LoopVerification::ManhattanAgrees(const Keyframe& earlier, const Keyframe& later,
-                                       LoopCandidate* candidate, const Evidence& evidence) const {
-  candidate->failed = LoopGate::kManhattan;
-  if (!earlier.R_O_Manhattan || !later.R_O_Manhattan) return true;
-  const double turn_in_O =
-      std::remainder(Yaw(*later.R_O_Manhattan) - Yaw(*earlier.R_O_Manhattan), M_PI / 2);
-  // A scene may have several Manhattan frames. If odometry itself found two, they do not constrain
-  // the loop.
-  const bool are_two = std::abs(turn_in_O) > options_.max_manhattan_error;
-  if (earlier.world == later.world && are_two) return true;
-  candidate->manhattan_error = std::remainder(evidence.T_O1_O2.yaw + turn_in_O, M_PI / 2);
-  return std::abs(*candidate->manhattan_error) <= options_.max_manhattan_error;
 }
 
 bool LoopVerification::HasInliers(LoopCandidate* candidate, Evidence* evidence) const {

@@ -29,8 +29,7 @@ struct LoopVerificationOptions {
   int min_pose_inliers = 8;  // among the matches
   int min_inliers = 12;      // in the later image
   double min_inlier_share = 0.3;
-  double max_manhattan_error = 3 * M_PI / 180;  // [rad]
-  int min_cells = 4;                            // cells of the 4 x 3 grid with inliers
+  int min_cells = 4;  // cells of the 4 x 3 grid with inliers
   int min_backward_inliers = 8;
   double min_backward_share = 0.15;
   int min_inliers_of_both = 28;  // sum over both images
@@ -65,8 +64,6 @@ class LoopVerification {
   bool AreApart(const Island& earlier, const Island& later, LoopCandidate* candidate,
                 Evidence* evidence) const;
   bool FindPose(const Island& earlier, LoopCandidate* candidate, Evidence* evidence) const;
-  bool ManhattanAgrees(const Keyframe& earlier, const Keyframe& later, LoopCandidate* candidate,
-                       const Evidence& evidence) const;
   bool HasInliers(LoopCandidate* candidate, Evidence* evidence) const;
   bool HoldsBackwards(const Island& earlier, const Island& later, LoopCandidate* candidate,
                       Evidence* evidence) const;

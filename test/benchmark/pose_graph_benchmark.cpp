@@ -31,8 +31,6 @@ Keyframe InRound(Keyframe keyframe, int round, double share, int64_t length_ns, 
   keyframe.t_ns += round * length_ns;
   keyframe.path += round * path;
   keyframe.T_O_B = T_O_first.ToRigid() * keyframe.T_O_B;
-  if (keyframe.R_O_Manhattan)
-    keyframe.R_O_Manhattan = T_O_first.rotation() * *keyframe.R_O_Manhattan;
   for (DescribedCorner& corner : keyframe.corners) {
     if (corner.track >= 0) corner.track += round * kTracks;
     if (corner.p_O) corner.p_O = (T_O_first * corner.p_O->cast<double>()).cast<float>();

@@ -23,8 +23,7 @@ import pair_flight  # noqa: E402
 CONFIG = ROOT / "config" / "euroc.yaml"
 SIMULATE, RUN_OFFLINE, FLIGHT = sys.argv[1:4] if len(sys.argv) > 3 else sys.exit(__doc__)
 DURATION = 12  # [s]
-LOOP_RESULTS = ("trajectory_map.tum", "covariance_map.csv", "trajectory_final.tum", "loops.csv",
-                "pose_graph.g2o", "colmap/points3D.txt")
+LOOP_RESULTS = ("trajectory_map.tum", "covariance_map.csv", "trajectory_final.tum", "loops.csv")
 
 
 def run(*command):

@@ -260,20 +260,6 @@ TEST_F(PointTrackerTest, ResetAllowsEarlierStamps) {
   EXPECT_EQ(tracker_->Track({1, scene_.View()}, std::nullopt).points.size(), 80U);
 }
 
-TEST_F(PointTrackerTest, KeepsTheOldestOfTooManyCorners) {
-  Track(scene_.View());
-  const PointFrame before = Track(scene_.View());
-  tracker_->SetMaxCorners(30);
-  const PointFrame fewer = Track(scene_.View());
-  ASSERT_GT(before.points.size(), 60U);
-  EXPECT_LE(fewer.points.size(), 30U);
-  EXPECT_GT(fewer.points.size(), 25U);
-  for (size_t i = 0; i < fewer.points.size(); ++i) EXPECT_LT(fewer.points[i].id, 30);
-
-  tracker_->SetMaxCorners(60);
-  EXPECT_EQ(Track(scene_.View()).points.size(), 60U);
-}
-
 TEST_F(PointTrackerTest, DrawsTracksInColor) {
   EXPECT_TRUE(tracker_->DrawTracks().empty());
   const PointFrame frame = Track(scene_.View());

@@ -65,7 +65,6 @@ Target MessagesTarget() {
         Try([&, reader = Reader(bytes)]() mutable { ToLineFrame(AnyCloud(&reader), &left_out); });
         Try([&, reader = Reader(bytes)]() mutable { ToCorners(AnyCloud(&reader), &left_out); });
         Try([&, reader = Reader(bytes)]() mutable { ToSegments(AnyCloud(&reader), &left_out); });
-        Try([&, reader = Reader(bytes)]() mutable { ToManhattanFrame(AnyCloud(&reader)); });
         Try([&, reader = Reader(bytes)]() mutable { ToImageSample(AnyImage(&reader)); });
         sensor_msgs::CompressedImage compressed;
         compressed.data = bytes;

@@ -268,16 +268,6 @@ TEST_F(LineTrackerTest, StatisticsAddUp) {
   }
 }
 
-TEST_F(LineTrackerTest, KeepsTheOldestOfTooManyLines) {
-  Show(ConfusingScene());
-  const cv::Mat image = scene_->View(Eigen::Matrix3d::Identity());
-  ASSERT_GT(Track(image).lines.size(), 10U);
-  tracker_->SetMaxLines(6);
-  const LineFrame fewer = Track(image);
-  ASSERT_EQ(fewer.lines.size(), 6U);
-  for (const LineObservation& line : fewer.lines) EXPECT_LT(line.id, 6);
-}
-
 TEST_F(LineTrackerTest, DrawsTheNewestImage) {
   Show(BarScene(PlainParameters()));
   EXPECT_TRUE(tracker_->DrawTracks().empty());

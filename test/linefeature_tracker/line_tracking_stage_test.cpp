@@ -28,7 +28,6 @@ class LineTrackingStageTest : public ::testing::Test {
     config.sensor.cameras[0].parameters = PlainParameters();
     config.lines.max_lines = 60;
     config.lines.half_resolution = false;
-    config.lines.spacing = 2;
     config.lines.min_length = 0.05;
     stage_ = std::make_unique<LineTrackingStage>(config);
   }

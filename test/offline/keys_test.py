@@ -27,7 +27,7 @@ NOWHERE = "the nodes alone have frames and topics"
 # Keys without an effect on the poses and the map of a flight, and why.
 REASONS = {
     **dict.fromkeys(("map_frame", "world_frame", "body_frame", "camera_frame", "manhattan_frame",
-                     "base_frame", "publish_tf", "verbose", "show_track"), NOWHERE),
+                     "base_frame", "publish_tf", "show_track"), NOWHERE),
     "pose_graph_save_path": "run_offline has --map-in and --map-out, or saves nothing there",
     "load_previous_pose_graph": "there is no map to load",
     "solver": "both find the same minimum; results differ by rounding, or not at all",
@@ -41,9 +41,7 @@ REASONS = {
     "max_num_iterations": "fewer are needed",
     "stamp_tolerance": "depth has the stamps of the images",
     "adapt_imu_noise": "the noise is as configured",
-    "line_merge_angle": "other limits decide in this flight",
     "manhattan_constraints": "the axes are found after more seconds",
-    "manhattan_noise": "the axes are found after more seconds",
 }
 # Other keys that one needs to have an effect.
 NEEDS = {

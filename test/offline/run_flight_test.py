@@ -47,14 +47,6 @@ def start(*options):
                             encoding="utf-8", preexec_fn=heed_signals)
 
 
-def length(words):
-    return float(np.linalg.norm([float(word) for word in words]))
-
-
-def distance(words, others):
-    return length([float(word) - float(other) for word, other in zip(words, others)])
-
-
 def wait_until(is_so):
     deadline = time.monotonic() + PATIENCE
     while not is_so() and time.monotonic() < deadline:
@@ -166,24 +158,11 @@ class RunFlight(unittest.TestCase):
         self.assertEqual(len(read_trajectory(self.results / "trajectory_final.tum")),
                          self.summary()["poses"])
 
-    def test_the_graph_of_an_adjusted_map_has_what_was_measured(self):
+    def test_the_map_is_adjusted(self):
         error = self.run_flight(self.flights / "second", "--set", "loop_closure=1")
-        loops = self.summary()["loops"]
-        self.assertIn(f"adjusting the map of {loops['bundle']['keyframes']} keyframes\n", error)
-        self.assertEqual(loops["bundle"]["rounds"], 3)
-        rows = [line.split() for line in
-                (self.results / "pose_graph.g2o").read_text(encoding="utf-8").splitlines()]
-        nodes = {row[1]: row[2:5] for row in rows if row[0].startswith("VERTEX")}
-        accepted = [row.split(",") for row in
-                    (self.results / "loops.csv").read_text(encoding="utf-8").splitlines()
-                    if ",accepted," in row]
-        self.assertTrue({row[2] for row in accepted} <= set(nodes))
-        steps = [row for row in rows if row[0].startswith("EDGE")]
-        self.assertGreater(max(abs(length(row[3:6]) - distance(nodes[row[1]], nodes[row[2]]))
-                               for row in steps), 1e-3)
-        images = (self.results / "colmap" / "images.txt").read_text(encoding="utf-8").splitlines()
-        self.assertEqual([int(line.split()[0]) - 1 for line in images[::2]],
-                         [int(number) for number in nodes])
+        bundle = self.summary()["loops"]["bundle"]
+        self.assertIn(f"adjusting the map of {bundle['keyframes']} keyframes\n", error)
+        self.assertEqual(bundle["rounds"], 3)
 
     def test_results_stay_where_the_map_and_features_cannot_be_saved(self):
         gone = self.folder / "gone"
@@ -204,11 +183,11 @@ class RunFlight(unittest.TestCase):
         gone.mkdir()
         process = self.start_first("--map-out", gone / "map.plm")
         shutil.rmtree(gone)
-        (self.results / "pose_graph.g2o").mkdir()
+        (self.results / "trajectory_final.tum").mkdir()
         error = process.communicate(timeout=PATIENCE)[1]
         self.assertEqual(process.returncode, 1, error)
         self.assertIn(f"cannot write {gone / 'map.plm'}", error)
-        self.assertIn("pose_graph.g2o", error)
+        self.assertIn("trajectory_final.tum", error)
 
     def copy_with_imu(self, change):
         """The first flight with other rows of the IMU: those that `change` makes of stamp [ns] and

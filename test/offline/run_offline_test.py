@@ -147,7 +147,7 @@ class RunOffline(unittest.TestCase):
         results.mkdir()
         link = self.folder / "link"
         link.symlink_to(results)
-        for name in ["map.ply", "summary.json", "trajectory.tum", "colmap/images.txt"]:
+        for name in ["map.ply", "summary.json", "trajectory.tum", "loops.csv"]:
             for folder in [results, link]:
                 for option in ["--map-in", "--map-out", "--save-features"]:
                     self.assert_refuses(f"which the run replaces by its own {name}; choose another",

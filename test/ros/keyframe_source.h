@@ -114,7 +114,7 @@ class KeyframeSource {
   }
 
   void PublishLines(int number) const {
-    lines_.publish(ToKeyframeLines({}, std::nullopt, ToNanoseconds(Stamp(number)), "world"));
+    lines_.publish(ToKeyframeLines({}, ToNanoseconds(Stamp(number)), "world"));
   }
 
   void PublishRestart() const {

@@ -41,8 +41,9 @@ class Namespace(unittest.TestCase):
         rospy.Subscriber("/tf", TFMessage, lambda message: frames.update(
             transform.child_frame_id for transform in message.transforms))
         for name in NAMES:
-            self.processes.start_node(NODES / name, "_imu_to_base:=0 0 0 0 0 0", *SETTINGS,
-                                      ROS_NAMESPACE="robot1")
+            self.processes.start_node(NODES / name, *SETTINGS, ROS_NAMESPACE="robot1")
+        self.processes.start("base", ["rosrun", "tf2_ros", "static_transform_publisher",
+                                      *"0 0 0 0 0 0 body base_link".split()])
         for name in NAMES[:3]:
             listener.wait_for_message(name, "waiting")
         self.processes.start("player", ["rosbag", "play", "--delay", "1",

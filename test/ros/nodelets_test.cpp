@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loads trackers and estimator as nodelets next to the same trackers as nodes, and sends both the
 // same bag. Run by nodelets.test.
-#include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <nodelet/NodeletList.h>
@@ -199,22 +198,6 @@ TEST_F(OurNodelets, ReportUnderTheirOwnNames) {
     EXPECT_TRUE(SpinUntil(kTimeout, [&] { return ("\n" + names).find(name) != std::string::npos; }))
         << name << " is not among\n"
         << names;
-  }
-}
-
-TEST_F(OurNodelets, ChangeTheNumberOfFeaturesWhileTheyRun) {
-  dynamic_reconfigure::Reconfigure change;
-  change.request.config.ints.resize(1);
-  change.request.config.ints[0].name = "max_cnt";
-  const Features points("/feature_tracker/feature");
-  ASSERT_TRUE(SpinUntil(kTimeout, [&] { return points.subscriber.getNumPublishers() > 0; }));
-  for (const int value : {30, 100}) {
-    change.request.config.ints[0].value = value;
-    ASSERT_TRUE(ros::service::call("/feature_tracker/set_parameters", change));
-    const ros::Time stamp = feed_->PublishImage();
-    ASSERT_TRUE(SpinUntil(kTimeout, [&] { return points.Has(stamp); }));
-    EXPECT_LE(points.newest->points.size(), static_cast<size_t>(value));
-    EXPECT_GT(points.newest->points.size(), 0.8 * value);
   }
 }
 

@@ -123,13 +123,11 @@ class Parameters(OperationsTest):
         self.assert_refused("vins_estimator", "_set:=3",
                             "parameter /vins_estimator/set must be a namespace of keys")
 
-    def test_frames_and_angles_of_the_relay_are_checked(self):
+    def test_frames_of_the_relay_are_checked(self):
         self.assert_refused("mavros_relay", "_base_frame:=/base_link",
                             'parameter /mavros_relay/base_frame: "/base_link" must not begin with a'
                             " slash")
         self.assert_refused("mavros_relay", "_odom_frame:=", "parameter /mavros_relay/odom_frame:")
-        self.assert_refused("mavros_relay", "_imu_to_base:=0 0 0 0 0 180",
-                            "parameter /mavros_relay/imu_to_base: yaw, pitch and roll are in rad")
 
     def test_a_name_that_ros_refuses_ends_the_node(self):
         self.assert_refused("feature_tracker", "__name:=front/tracker",

@@ -364,6 +364,23 @@ TEST(EstimationStage, ReportsFarTooSmallConfiguredNoise) {
   }
 }
 
+// Vibration shows in the samples of the IMU, so the camera does not contradict them.
+TEST(EstimationStage, SuddenVibrationIsNoContradiction) {
+  testing::FlightPlan plan;
+  plan.duration = 8;
+  plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
+  const testing::SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
+  plan.imu_noise = 12;
+  const testing::SimulatedFlight vibrating = testing::PlannedFlight(plan).Simulate();
+  EstimationStage stage = StageFor(flight);
+  for (size_t i = 0; i < flight.frames.size(); ++i) {
+    FrameMeasurement frame = flight.frames[i];
+    if (i > 130) frame.imu = vibrating.frames[i].imu;
+    Fly({flight.sensor, {frame}, {flight.truth[i]}}, &stage);
+    ASSERT_EQ(stage.ImuContradiction(), "") << i;
+  }
+}
+
 // The samples are as configured: neither acc_n nor gyr_n is the cause.
 TEST(EstimationStage, DoesNotBlameTheNoiseForAWrongCalibration) {
   testing::SimulatedFlight flight = GentleFlightFor(12);

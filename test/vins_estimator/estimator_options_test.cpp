@@ -35,14 +35,6 @@ TEST_F(EstimatorOptionsTest, PixelsAreDividedByTheFocalLength) {
   EXPECT_DOUBLE_EQ(options.same_line.image_distance, 7 / focal_length_);
 }
 
-TEST_F(EstimatorOptionsTest, DegreesBecomeRadians) {
-  config_.estimator.line_merge_angle = 3;
-  config_.estimator.manhattan_noise = 2;
-  const EstimatorOptions options(config_);
-  EXPECT_DOUBLE_EQ(options.same_line.angle, M_PI / 60);
-  EXPECT_DOUBLE_EQ(options.problem.manhattan_weight, 90 / M_PI);
-}
-
 TEST_F(EstimatorOptionsTest, AnchorObservationsHaveLessWeight) {
   const EstimatorOptions options(config_);
   EXPECT_LT(options.problem.anchor_weight, 0.5 * options.problem.line_weight);

@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "test/vins_estimator/estimated_flight.h"
+#include "vins_estimator/estimator_options.h"
+#include "vins_estimator/initialization/initializer.h"
+#include "vins_estimator/window_odometry.h"
 
 namespace plm_vins {
 namespace {
@@ -104,6 +107,29 @@ TEST_F(EstimatorPlacement, IsNotUsedAtStandstill) {
     EXPECT_FALSE(output.stationary && WasPlaced(flight.outputs[i - 1], output)) << i;
   }
   EXPECT_TRUE(flight.outputs.back().stationary);
+}
+
+// Few points may determine the velocity badly; most points then contradict it.
+TEST(EstimatorPlacementOfStart, IsRefusedIfItContradictsTheInitialStates) {
+  const auto flight =
+      testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kGentle, 1), /*skip=*/3);
+  const Config config = testing::ConfigFor(flight);
+  const EstimatorOptions options(config);
+  Initializer initializer(config);
+  std::optional<InitializationResult> result;
+  for (size_t i = 0; !result && i < flight.frames.size(); ++i) {
+    result = initializer.Add(flight.frames[i]);
+  }
+  ASSERT_TRUE(result);
+  for (const double speed : {0.0, 0.6}) {
+    for (InitialFrame& frame : result->frames) {
+      const double t = ToSeconds(frame.state.t_ns - result->frames.front().state.t_ns);
+      frame.state.position().z() += speed * t;
+      frame.state.velocity().z() += speed;
+    }
+    WindowOdometry odometry(config, options);
+    EXPECT_EQ(odometry.Start(*result, UncertaintyOf(config.sensor, false)).has_value(), speed == 0);
+  }
 }
 
 }  // namespace

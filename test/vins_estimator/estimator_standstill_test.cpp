@@ -137,5 +137,58 @@ TEST(EstimatorStandstill, SceneThatMovesFromTheStartIsNoMotionOfTheBody) {
   }
 }
 
+// Distance of a body whose velocity rises from 0 to 1 m/s between two times [m].
+double Accelerated(double t, double begin, double end) {
+  const double u = std::clamp((t - begin) / (end - begin), 0.0, 1.0);
+  return (end - begin) * u * u * u * u * (2.5 + u * (-3 + u)) + std::max(0.0, t - end);
+}
+
+// Images of a body at standstill from `landing` on, with the IMU of a lift that moves 4 s later.
+testing::SimulatedFlight Lift(double landing, double acceleration, double duration) {
+  auto flight = testing::PlannedFlight(FlightWithRest(landing, landing + 20)).Simulate();
+  FlightPlan plan;
+  plan.duration = landing + 20;
+  plan.T_W_V = [=](double t) {
+    Rigid3d T_W_V = GentleFlight(t, 2, landing);
+    const double begin = landing + 4, end = landing + 12;
+    const double v = acceleration * duration / 1.875;
+    T_W_V.translation.z() +=
+        v * (Accelerated(t, begin, begin + duration) - Accelerated(t, end, end + duration));
+    return T_W_V;
+  };
+  const auto lift = testing::PlannedFlight(plan).Simulate();
+  for (size_t i = 0; i < flight.frames.size(); ++i) flight.frames[i].imu = lift.frames[i].imu;
+  return flight;
+}
+
+TEST(EstimatorStandstill, LiftDoesNotMoveTheEstimate) {
+  for (const double landing : {2.0, 10.0}) {  // without and with known depths
+    for (const double acceleration : {0.6, 1.5}) {
+      const auto flight = Lift(landing, acceleration, 2.5);
+      Estimator estimator(testing::ConfigFor(flight));
+      const EstimatedFlight estimated = testing::Estimate(flight, &estimator);
+      EXPECT_TRUE(estimated.restarts.empty()) << estimated.restarts.front();
+      EXPECT_TRUE(estimator.ViewMovesAlong());
+      EXPECT_LT(testing::GreatestError(estimated, estimated.outputs.size() - 330),
+                acceleration < 1 ? 0.007 : 0.05)
+          << acceleration << " m/s^2 after " << landing << " s";
+    }
+  }
+}
+
+// Its corners rest at first while the IMU feels the motion.
+TEST(EstimatorStandstill, TakeOffBeforeAFarSceneIsNoLift) {
+  FlightPlan plan;
+  plan.duration = 10;
+  plan.room = {160, 160, 80};
+  plan.T_W_V = [](double t) {
+    Rigid3d T_W_V = GentleFlight(t, 6, 14);
+    T_W_V.translation.z() += 20 + Accelerated(t, 3, 4) - Accelerated(t, 6, 7);
+    return T_W_V;
+  };
+  const auto flight = testing::PlannedFlight(plan).Simulate();
+  EXPECT_LT(testing::GreatestError(testing::Estimate(flight), 20), 0.2);
+}
+
 }  // namespace
 }  // namespace plm_vins

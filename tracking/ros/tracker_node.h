@@ -31,7 +31,6 @@
 #include "common/streams/drop_counts.h"
 #include "tracking/image_schedule.h"
 #include "tracking/ros/imu_inbox.h"
-#include "tracking/ros/run_time_settings.h"
 
 namespace plm_vins {
 
@@ -41,8 +40,7 @@ namespace plm_vins {
 // tracked, so that a stall of the transport loses none; images that are older than kMaxWait are
 // dropped then.
 //
-// `Traits` defines what differs between trackers: the types Stage (a TrackingStage) and Settings
-// (of dynamic_reconfigure, with show_track), ToSettings(config) and Apply(settings, tracker), the
+// `Traits` defines what differs between trackers: the type Stage (a TrackingStage), the
 // private topics kFeatureTopic and kAnnotatedTopic, the diagnostic status kDiagnostics, kEveryImage
 // (features of all images are published instead of those at the rate `freq`), kUsesDepth (depth
 // images are used), and Finding(tracker), which describes what seems to be wrong with the images.
@@ -56,9 +54,7 @@ class TrackerNode {
         config_(config),
         stage_(config, kMaxWait),
         schedule_(config.publish_rate),
-        diagnostics_(node, private_node, private_node.getNamespace()),
-        settings_(Traits::ToSettings(config), private_node,
-                  [this](const Settings& settings) { Apply(settings); }) {
+        diagnostics_(node, private_node, private_node.getNamespace()) {
     feature_publisher_ =
         private_node_.advertise<sensor_msgs::PointCloud>(Traits::kFeatureTopic, kOutputQueue);
     restart_publisher_ = private_node_.advertise<std_msgs::Bool>("restart", 10);
@@ -82,7 +78,6 @@ class TrackerNode {
 
  private:
   using Stage = typename Traits::Stage;
-  using Settings = typename Traits::Settings;
 
   static constexpr uint32_t kOutputQueue = 200;
   // Images that arrive while one is tracked; more than those of kMaxWait.
@@ -91,11 +86,6 @@ class TrackerNode {
   // Wall time after which an image is tracked without the gyroscope [s].
   static constexpr double kMaxWaitForImu = 0.5;
   static constexpr double kMinSilence = 2, kLongSilence = 10;  // [s] of wall time
-
-  void Apply(const Settings& settings) {
-    show_track_ = settings.show_track;
-    stage_.ForEachTracker([&](auto* tracker) { Traits::Apply(settings, tracker); });
-  }
 
   void SubscribeToOthers() {
     const SensorConfig& sensor = config_.sensor;
@@ -174,7 +164,7 @@ class TrackerNode {
       found = frame.has_value();
       if (frame) Publish(*frame);
     });
-    if (!done) stage_.ForEachTracker([](auto* tracker) { tracker->Reset(); });
+    if (!done) stage_.Reset();
     return found;
   }
 
@@ -199,7 +189,7 @@ class TrackerNode {
     if (!frame.publish && !Traits::kEveryImage) return;
     feature_publisher_.publish(message);
     feature_stream_.Add(frame.features.t_ns);
-    for (size_t i = 0; show_track_ && i < annotated_publishers_.size(); ++i) {
+    for (size_t i = 0; config_.show_track && i < annotated_publishers_.size(); ++i) {
       if (annotated_publishers_[i].getNumSubscribers() == 0) continue;
       annotated_publishers_[i].publish(
           ToMessage(stage_.DrawTracks(i), frame.features.t_ns, config_.output.camera_frame));
@@ -264,7 +254,6 @@ class TrackerNode {
   const Config config_;
   Stage stage_;
   ImageSchedule schedule_;
-  bool show_track_ = true;
   DropWarner drop_warner_;
   ConstantStamp image_stamps_;
   FindingMemory stamp_faults_, image_faults_;
@@ -283,7 +272,6 @@ class TrackerNode {
   ros::Publisher restart_publisher_;
   std::vector<image_transport::Publisher> annotated_publishers_;  // by tracked camera
   diagnostic_updater::Updater diagnostics_;
-  RunTimeSettings<Settings> settings_;
 
   // Declared last, so that they are destroyed first, and the inbox after the others: a nodelet is
   // unloaded while callbacks run in other threads. Each destructor waits for its own callbacks.

@@ -13,7 +13,8 @@ namespace {
 
 constexpr float kMinCorrelation = 0.75F;  // at whole pixels; the alignment requires more
 constexpr float kUniqueness = 1.3F;       // the next best place must be worse by this factor
-constexpr int kPeakWidth_px = 3;          // points farther from the best one count as others
+constexpr float kNoise = 0.01F;   // places that are worse than perfect by less are equally good
+constexpr int kPeakWidth_px = 3;  // points farther from the best one count as others
 constexpr double kBandStep_px = 1.5;
 constexpr double kNoBand_px = 0.5;    // correlation windows match up to this far off the curve
 constexpr size_t kWarpInterval = 32;  // points of a curve that share a warp
@@ -49,10 +50,11 @@ class Search {
     };
     const auto best = std::max_element(candidates_.begin(), candidates_.end(), is_worse);
     if (best == candidates_.end() || best->correlation < kMinCorrelation) return std::nullopt;
+    const float least_worse = std::max(kUniqueness * (1 - best->correlation), kNoise);
     for (const Candidate& other : candidates_) {
       const Eigen::Vector2d apart = other.place.pixel - best->place.pixel;
       if (apart.cwiseAbs().maxCoeff() < kPeakWidth_px) continue;
-      if (1 - other.correlation < kUniqueness * (1 - best->correlation)) return std::nullopt;
+      if (1 - other.correlation < least_worse) return std::nullopt;
     }
     return best->place;
   }

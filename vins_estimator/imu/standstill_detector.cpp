@@ -39,8 +39,13 @@ double MedianDistance(const std::vector<Eigen::Vector2d>& motions) {
   return Median(distances);
 }
 
-// Returns the median if the noise of single values does not explain it, otherwise zero.
-double SignificantMedian(const std::vector<double>& values) {
+// Median of values, and what the noise of single values may add to it.
+struct NoisyMedian {
+  double size, noise;
+  double Significant() const { return size > noise ? size : 0; }
+};
+
+NoisyMedian MedianOf(const std::vector<double>& values) {
   constexpr double kSigmas = 3;
   const double median = Median(values);
   std::vector<double> distances(values.size());
@@ -48,28 +53,44 @@ double SignificantMedian(const std::vector<double>& values) {
   // Standard deviation of the median of normally distributed values with this median distance.
   const double deviation =
       1.253 * 1.483 * Median(std::move(distances)) / std::sqrt(static_cast<double>(values.size()));
-  return std::abs(median) > kSigmas * deviation ? median : 0;
+  return {std::abs(median), kSigmas * deviation};
 }
 
-// Returns the greatest significant median of the motions' components: right, down, radial and
-// tangential about the mean position.
-double CommonMotion(const CornerMotions& corners) {
+// Returns the medians of the motions' components: right, down, radial and tangential about the mean
+// position.
+std::array<NoisyMedian, 4> CommonMotions(const std::vector<Eigen::Vector2d>& starts,
+                                         const std::vector<Eigen::Vector2d>& motions) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const Eigen::Vector2d& start : corners.starts) {
-    middle += start / static_cast<double>(corners.starts.size());
+  for (const Eigen::Vector2d& start : starts) {
+    middle += start / static_cast<double>(starts.size());
   }
   std::array<std::vector<double>, 4> components;
-  for (size_t i = 0; i < corners.motions.size(); ++i) {
-    const Eigen::Vector2d& motion = corners.motions[i];
-    const Eigen::Vector2d outwards = (corners.starts[i] - middle).normalized();
+  for (size_t i = 0; i < motions.size(); ++i) {
+    const Eigen::Vector2d& motion = motions[i];
+    const Eigen::Vector2d outwards = (starts[i] - middle).normalized();
     components[0].push_back(motion.x());
     components[1].push_back(motion.y());
     components[2].push_back(outwards.dot(motion));
     components[3].push_back(outwards.x() * motion.y() - outwards.y() * motion.x());
   }
+  return {MedianOf(components[0]), MedianOf(components[1]), MedianOf(components[2]),
+          MedianOf(components[3])};
+}
+
+// Returns the greatest significant common motion [px].
+double CommonMotion(const CornerMotions& corners) {
   double greatest = 0;
-  for (const auto& values : components) {
-    greatest = std::max(greatest, std::abs(SignificantMedian(values)));
+  for (const NoisyMedian& median : CommonMotions(corners.starts, corners.motions)) {
+    greatest = std::max(greatest, median.Significant());
+  }
+  return greatest;
+}
+
+// Returns the greatest common motion that the corners may have, as a ray.
+double GreatestRayMotion(const CornerMotions& corners) {
+  double greatest = 0;
+  for (const NoisyMedian& median : CommonMotions(corners.starts, corners.ray_motions)) {
+    greatest = std::max(greatest, median.size + median.noise);
   }
   return greatest;
 }
@@ -84,17 +105,30 @@ std::optional<StandstillDetector::Standstill> StandstillDetector::Add(
   imu_.Add(measurement);
   confirmed_.Add(measurement);
   points_.push_back(measurement.points);
-  while (points_.size() > imu_.images()) points_.pop_front();
-  doubts_camera_ = sees_unfelt_motion_ = feels_unseen_motion_ = false;
+  felt_positions_.push_back(unseen_.position());
+  while (points_.size() > imu_.images()) {
+    points_.pop_front();
+    felt_positions_.pop_front();
+  }
+  doubts_camera_ = sees_unfelt_motion_ = false;
   if (points_.empty()) {
     confirmed_.Reset();
+    unseen_.Reset();
     return std::nullopt;
   }
   const CornerMotions corners = MotionsBetween(points_.front(), points_.back());
   const bool sees = static_cast<int>(corners.motions.size()) >= options_.min_points;
   const bool rests = sees && MedianDistance(corners.motions) <= options_.max_motion_px;
+  if (rests) {
+    unseen_.Add(measurement.imu, imu_.IsQuiet());
+    felt_positions_.back() = unseen_.position();
+  } else if (sees) {
+    unseen_.Reset();
+  }
+  if (rests && unseen_.IsFelt() && IsUnseen(GreatestRayMotion(corners), depth)) {
+    return Standstill{confirmed_ns_, CommonMotion(corners), false, true};
+  }
   if (!imu_.IsQuiet()) {
-    feels_unseen_motion_ = rests && imu_.IsKnown();
     confirmed_.Reset();
     return std::nullopt;
   }
@@ -133,11 +167,20 @@ bool StandstillDetector::IsOfScene(double motion, std::optional<double> depth) c
   return motion > confirmed_.UnnoticedVelocity() * duration / depth.value_or(kNearest);
 }
 
+bool StandstillDetector::IsUnseen(double greatest_motion, std::optional<double> depth) const {
+  constexpr double kFar = 50;     // [m], of an unknown scene
+  constexpr double kFarther = 4;  // factor on the depth, which may be of other points
+  const double felt = (felt_positions_.back() - felt_positions_.front()).norm();
+  return greatest_motion < felt / (kFarther * depth.value_or(kFar));
+}
+
 void StandstillDetector::Reset() {
   imu_.Reset();
-  doubts_camera_ = sees_unfelt_motion_ = feels_unseen_motion_ = false;
+  doubts_camera_ = sees_unfelt_motion_ = false;
   confirmed_.Reset();
+  unseen_.Reset();
   points_.clear();
+  felt_positions_.clear();
 }
 
 }  // namespace plm_vins

@@ -9,6 +9,7 @@
 #include "common/measurements.h"
 #include "vins_estimator/imu/confirmed_standstill.h"
 #include "vins_estimator/imu/imu_stillness.h"
+#include "vins_estimator/imu/unseen_motion.h"
 
 namespace plm_vins {
 
@@ -19,7 +20,8 @@ namespace plm_vins {
 // A standstill that both confirmed continues while images show too little (blank, covered), as long
 // as the IMU readings equal those of the standstill (ConfirmedStandstill). It also continues if the
 // corners move faster than the body could without the IMU measuring it: then the scene moves (a
-// train, the deck of a ship).
+// train, the deck of a ship). And it continues if the corners rest while the IMU feels a motion
+// that the camera would see: then the view moves along (a lift, a vehicle).
 //
 // The common motion of the corners is a more sensitive measure than their distances, to which noise
 // contributes.
@@ -33,9 +35,10 @@ class StandstillDetector {
   };
 
   struct Standstill {
-    int64_t since_ns = 0;      // time of an image since which the body has stood still
-    double common_px = 0;      // common motion of the corners since that image [px]
-    bool scene_moves = false;  // the image shows motion that the IMU does not feel
+    int64_t since_ns = 0;           // time of an image since which the body has stood still
+    double common_px = 0;           // common motion of the corners since that image [px]
+    bool scene_moves = false;       // the image shows motion that the IMU does not feel
+    bool view_moves_along = false;  // the IMU feels motion that the image does not show
   };
 
   StandstillDetector(const ImuNoise& noise, const Options& options);
@@ -55,25 +58,26 @@ class StandstillDetector {
   // Returns whether the corners move while the IMU shows its noise alone.
   bool sees_unfelt_motion() const { return sees_unfelt_motion_; }
 
-  // Returns whether the corners rest while the IMU shows motion: in a lift or a vehicle, the view
-  // moves along.
-  bool feels_unseen_motion() const { return feels_unseen_motion_; }
-
   void Reset();
 
  private:
   // Returns whether the corners move too fast for a body whose IMU shows standstill.
   bool IsOfScene(double motion, std::optional<double> depth) const;
+  // Returns whether the corners move by less than what the IMU feels would move them, even if their
+  // common motion, as a ray, is by so much greater.
+  bool IsUnseen(double greatest_motion, std::optional<double> depth) const;
 
   Options options_;
   ImuStillness imu_;
   ConfirmedStandstill confirmed_;
+  UnseenMotion unseen_;
   // Content of the images since the confirmed standstill.
   enum class Seen { kStandstill, kMotion, kMovingScene };
   Seen seen_ = Seen::kStandstill;
   int64_t confirmed_ns_ = 0;  // the newest image that confirmed the standstill
-  bool doubts_camera_ = false, sees_unfelt_motion_ = false, feels_unseen_motion_ = false;
-  std::deque<PointFrame> points_;  // points of the images in the window
+  bool doubts_camera_ = false, sees_unfelt_motion_ = false;
+  std::deque<PointFrame> points_;               // points of the images in the window
+  std::deque<Eigen::Vector3d> felt_positions_;  // at the same images
 };
 
 }  // namespace plm_vins

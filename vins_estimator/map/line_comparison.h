@@ -22,13 +22,12 @@ struct SameLineLimits {
   SameLineLimits(const EstimatorConfig& config, double focal_length)
       : distance(config.line_merge_distance),
         image_distance(config.line_merge_image_distance / focal_length),
-        angle(config.line_merge_angle * M_PI / 180),
         noise(config.line_noise / focal_length) {}
 
-  double distance;        // between the lines in space, and between their ends [m]
-  double image_distance;  // between line and segment in an image, normalized
-  double angle;           // between the directions [rad]
-  double noise;           // standard deviation of an end point across the line, normalized
+  double distance;                // between the lines in space, and between their ends [m]
+  double image_distance;          // between line and segment in an image, normalized
+  double angle = 3 * M_PI / 180;  // between the directions [rad]
+  double noise;                   // standard deviation of an end point across the line, normalized
 };
 
 // Returns the first condition in space that two lines violate; kNone if they meet all. Where

@@ -66,6 +66,16 @@ void SlidingWindow::SetStillSince(std::optional<int64_t> still_since_ns, double 
   }
 }
 
+void SlidingWindow::IgnoreAccelerationSince(int64_t t_ns) {
+  constexpr double kAnyAcceleration = 1;  // [m/s^2/sqrt(Hz)]
+  for (size_t i = frames.size() - 1; i > 0 && frames[i].state.t_ns > t_ns; --i) {
+    ImuNoise noise = frames[i].motion_since_previous->noise();
+    if (noise.accel_density >= kAnyAcceleration) continue;
+    noise.accel_density = kAnyAcceleration;
+    frames[i].motion_since_previous->Reweigh(noise);
+  }
+}
+
 bool SlidingWindow::HasStationary() const {
   return std::any_of(frames.begin(), frames.end(),
                      [](const WindowFrame& frame) { return frame.stationary; });

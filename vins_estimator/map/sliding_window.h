@@ -86,6 +86,10 @@ struct SlidingWindow {
   // which limits the certainty of the standstill.
   void SetStillSince(std::optional<int64_t> still_since_ns, double flow = 0);
 
+  // Ignores the accelerometer after a time: it feels a motion, of a lift, that the camera does not
+  // see.
+  void IgnoreAccelerationSince(int64_t t_ns);
+
   // Returns whether any frame is stationary.
   bool HasStationary() const;
 

@@ -20,9 +20,6 @@ constexpr char kChecksOfTranslation[] =
     "; camera and gyro agree about rotations, so extrinsicRotation, td and the focal length are "
     "right; check, the most likely first: scale and axes of the accelerometer (acc_correction), "
     "moving objects, extrinsicTranslation, parts of the image that never move";
-constexpr char kUnseenMotion[] =
-    "; the corners rest in the image: the camera sees no motion that the IMU feels, because the "
-    "view moves along (in a lift or a vehicle), or because the IMU is not fixed to the camera";
 
 }  // namespace
 
@@ -51,7 +48,6 @@ std::string DescribeContradiction(const ContradictionEvidence& evidence) {
   }
   using Rotations = ContradictionEvidence::Rotations;
   if (evidence.rotations == Rotations::kExplained) return text;
-  if (evidence.camera_rests) return text + kUnseenMotion;
   return text + (evidence.rotations == Rotations::kAgree ? kChecksOfTranslation : kChecks);
 }
 

@@ -16,7 +16,6 @@ struct ContradictionEvidence {
   // explains why they do not.
   enum class Rotations { kUnknown, kAgree, kExplained };
   Rotations rotations = Rotations::kUnknown;
-  bool camera_rests = false;  // the corners stand still in the image
 };
 
 // Describes a contradiction between camera and IMU: first the known faults, then what to check, the

@@ -18,6 +18,8 @@ constexpr double kPairRotation = 0.05 * M_PI / 180;  // [rad]
 constexpr double kRigRotation = 0.5 * M_PI / 180;    // [rad]
 constexpr double kRigPosition = 0.01;                // [m]
 
+constexpr double kManhattanNoise_deg = 1;  // standard deviation of a line from its axis
+
 // Links the second camera of a stereo pair to the first one, and other cameras to camera 0.
 ExtrinsicsLink LinkOf(const SensorConfig& sensor, int camera) {
   const auto link = [&](int other) {
@@ -39,7 +41,7 @@ ExtrinsicsLink LinkOf(const SensorConfig& sensor, int camera) {
 }  // namespace
 
 ProblemOptions::ProblemOptions(const Config& config, double focal_length)
-    : manhattan_weight(180 / (M_PI * config.estimator.manhattan_noise)),
+    : manhattan_weight(180 / (M_PI * kManhattanNoise_deg)),
       estimate_extrinsic(config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed),
       estimate_depth_stream(config.sensor.depth.has_value()),
       estimate_td(config.sensor.estimate_td),

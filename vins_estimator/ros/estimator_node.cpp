@@ -305,7 +305,6 @@ void EstimatorNode::Handle(const EstimatedFrame& frame) {
   report_.Add(output);
   LogChanges(output);
   LogLines();
-  if (config_.estimator.verbose) LogFrame(output);
   diagnostics_.Update(output, stage_.frames(), propagation_.Age(output));
 }
 
@@ -324,13 +323,6 @@ void EstimatorNode::LogChanges(const EstimatorOutput& output) {
   }
   last_status_ = output.status;
   last_reason_ = output.reason;
-}
-
-void EstimatorNode::LogFrame(const EstimatorOutput& output) const {
-  const EstimatorCounts& counts = output.counts;
-  ROS_INFO("%.3f s %s: %d points, %d lines, optimization %.1f ms, estimator %.1f ms",
-           ToSeconds(output.t_ns), ToString(output.status), counts.points_in_window,
-           counts.lines_in_window, output.timings.optimization, output.timings.total);
 }
 
 void EstimatorNode::LogFinding() {

@@ -93,7 +93,6 @@ class EstimatorNode {
   void StartOver(const std::string& reason);
   void Handle(const EstimatedFrame& frame);
   void LogChanges(const EstimatorOutput& output);
-  void LogFrame(const EstimatorOutput& output) const;
   void LogFinding();
   void LogLines();
 

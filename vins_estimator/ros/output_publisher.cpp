@@ -125,8 +125,7 @@ void OutputPublisher::PublishKeyframe(const EstimatedFrame& frame) {
     });
   }
   PublishIfWanted(keyframe_line_, [&] {
-    return ToKeyframeLines(PlaceSegments(frame.lines, output.lines), output.R_W_M, output.t_ns,
-                           world);
+    return ToKeyframeLines(PlaceSegments(frame.lines, output.lines), output.t_ns, world);
   });
   PublishIfWanted(keyframe_point_, [&] {
     return ToKeyframePoints(PlaceCorners(frame.points, output.points), output.t_ns, world);

@@ -343,7 +343,6 @@ TEST_F(ConfigTest, Contradictions) {
   ExpectProblem("world_frame: \"map\\n\"", {"world_frame: must be a name without spaces"});
   ExpectProblem("world_frame: /map", {"world_frame: must not begin with a slash"});
   ExpectProblem("min_dist: 490", {"min_dist: must be smaller than the image"});
-  ExpectProblem("line_border: 250", {"line_border: covers the whole image; reduce it"});
   ExpectProblem("fisheye_mask: no.png", {"fisheye_mask: cannot find the file", "no.png"});
   ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "cx: 320", "cx: 700"))),
                    {"camera.yaml:5: image_width: the principal point is beyond the right edge; "

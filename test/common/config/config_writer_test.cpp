@@ -35,7 +35,7 @@ class ConfigWriter : public ::testing::Test {
 
 TEST_F(ConfigWriter, WrittenFileLoadsWithEqualValues) {
   const Config config = Load("camera.yaml", kVinsMonoFile,
-                             {{"world_frame", "a\"b\\c:#d"}, {"max_cnt", "77"}, {"verbose", "1"}});
+                             {{"world_frame", "a\"b\\c:#d"}, {"max_cnt", "77"}, {"equalize", "0"}});
   const Config again = Load("again.yaml", Written(config));
   const auto expected = EffectiveValues(config), values = EffectiveValues(again);
   ASSERT_EQ(values.size(), expected.size());

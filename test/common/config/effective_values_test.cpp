@@ -39,7 +39,7 @@ TEST(EffectiveValues, HoldEveryKey) {
   EXPECT_EQ(values.at("line_anchors"), ConfigValue(7));
   EXPECT_EQ(values.at("estimate_extrinsic"), ConfigValue(2));
   EXPECT_EQ(values.at("line_detector"), ConfigValue(std::string("fld")));
-  EXPECT_EQ(values.at("verbose"), ConfigValue(false));
+  EXPECT_EQ(values.at("publish_tf"), ConfigValue(true));
   EXPECT_EQ(values.at("gyr_n"), ConfigValue(config.sensor.imu_noise.gyro_density));
   EXPECT_EQ(values.at("imu_noise_model"), ConfigValue(std::string("continuous")));
   const auto R_B_C = std::get<std::vector<double>>(values.at("extrinsicRotation"));

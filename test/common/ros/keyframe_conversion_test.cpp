@@ -119,7 +119,7 @@ TEST(KeyframeLines, AreDroppedOrRejectedLikePoints) {
   for (size_t i = 0; i < segments.size(); ++i) {
     segments[i].observation.id = static_cast<int64_t>(i);
   }
-  const auto message = ToKeyframeLines(segments, std::nullopt, 0, "");
+  const auto message = ToKeyframeLines(segments, 0, "");
   EXPECT_EQ(Segments(message).size(), 3u);
   for (const int value : {0, 1, 2, 3}) {
     auto spoiled = message;
@@ -133,22 +133,13 @@ TEST(KeyframeLines, AreDroppedOrRejectedLikePoints) {
   EXPECT_THROW(Segments(spoiled), std::invalid_argument);
 }
 
-TEST(KeyframeLines, AreRejectedWithAnInvalidManhattanFrame) {
-  auto message = ToKeyframeLines({}, Eigen::Quaterniond::Identity(), 0, "");
-  for (const float w : {0.0F, kNan, kInfinity}) {
-    message.channels.back().values[0] = w;
-    EXPECT_THROW(ToManhattanFrame(message), std::invalid_argument) << w;
-  }
-}
-
 TEST(KeyframeLines, SurviveARoundTrip) {
   std::vector<TrackedSegment> segments(2);
   segments[0].observation.id = 8;
   segments[1].observation.id = 9;
   segments[0].observation.end = {0.5, 0.75};
   segments[0].landmark = {{1, 2, 3}, {4, 5, 6}};
-  const auto message = ToKeyframeLines(segments, std::nullopt, 0, "");
-  EXPECT_FALSE(ToManhattanFrame(message));
+  const auto message = ToKeyframeLines(segments, 0, "");
   const auto back = Segments(message);
   ASSERT_EQ(back.size(), 2u);
   EXPECT_FALSE(back[1].landmark);  // observed, but without a position
@@ -156,19 +147,6 @@ TEST(KeyframeLines, SurviveARoundTrip) {
   EXPECT_EQ(back[0].observation.end, Eigen::Vector2d(0.5, 0.75));
   EXPECT_EQ(back[0].landmark->start_O, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(back[0].landmark->end_O, Eigen::Vector3d(4, 5, 6));
-}
-
-TEST(KeyframeLines, CarryTheManhattanFrame) {
-  std::vector<TrackedSegment> segments(1);
-  segments[0].observation.id = 8;
-  segments[0].landmark = {{1, 2, 3}, {4, 5, 6}};
-  const Eigen::Quaterniond R_O_Manhattan(0.6, 0, 0, 0.8);
-  auto message = ToKeyframeLines(segments, R_O_Manhattan, 0, "");
-  EXPECT_EQ(Segments(message).size(), 1u);
-  ASSERT_TRUE(ToManhattanFrame(message));
-  EXPECT_LT(ToManhattanFrame(message)->angularDistance(R_O_Manhattan), 1e-6);
-  message.channels.back().values.pop_back();
-  EXPECT_THROW(ToManhattanFrame(message), std::invalid_argument);
 }
 
 }  // namespace

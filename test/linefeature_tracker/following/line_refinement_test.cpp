@@ -130,8 +130,8 @@ TEST_F(SingleBarTest, KeepsDistanceFromTheBorder) {
   scene.AddBar({-100, 200}, {900, 200}, 40, 200);
   LineSegment line{scene.ToNormalised({10, 180}), scene.ToNormalised({740, 180})};
   for (int i = 0; i < 3; ++i) line = *refinement_.Refine(scene.View(), line, 2);
-  EXPECT_GE(kRefinementFocal * line.start.x() + 375.5, LineTrackerConfig().border);
-  EXPECT_LE(kRefinementFocal * line.end.x() + 375.5, 751 - LineTrackerConfig().border);
+  EXPECT_GE(kRefinementFocal * line.start.x() + 375.5, kLineBorder_px);
+  EXPECT_LE(kRefinementFocal * line.end.x() + 375.5, 751 - kLineBorder_px);
 }
 
 TEST_F(SingleBarTest, EndsWhereTheMaskBegins) {

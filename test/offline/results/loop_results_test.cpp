@@ -4,15 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <map>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
 
-#include "common/camera/camera_model.h"
 #include "pose_graph/output/map_file.h"
 #include "test/testing/message_of.h"
 #include "test/testing/temporary_folder.h"
@@ -56,33 +52,6 @@ class LoopResultsTest : public ::testing::Test {
     return rows;
   }
 
-  // The camera of the COLMAP model; COLMAP's pixel coordinates start at the image corner.
-  std::unique_ptr<const CameraModel> ColmapCamera() const {
-    std::istringstream text(folder_.Read("colmap/cameras.txt"));
-    std::string number, model;
-    CameraParameters camera;
-    text >> number >> model >> camera.width >> camera.height >> camera.fx >> camera.fy >>
-        camera.cx >> camera.cy;
-    for (int i = 0; i < 4; ++i) text >> camera.distortion(i);
-    EXPECT_EQ(model, "OPENCV");
-    camera.cx -= 0.5;
-    camera.cy -= 0.5;
-    return CameraModel::Create(camera);
-  }
-
-  // Corners of the first image in the COLMAP model, by landmark [px].
-  std::map<int64_t, Eigen::Vector2d> ColmapCorners() const {
-    std::istringstream text(folder_.Read("colmap/images.txt"));
-    std::string pose, line;
-    std::getline(text, pose);
-    std::getline(text, line);
-    std::istringstream numbers(line);
-    std::map<int64_t, Eigen::Vector2d> corners;
-    Eigen::Vector2d uv;
-    for (int64_t id; numbers >> uv.x() >> uv.y() >> id;) corners[id] = uv.array() - 0.5;
-    return corners;
-  }
-
   testing::TemporaryFolder folder_;
   Config config_;
   int64_t t_ns_ = 0;
@@ -96,46 +65,12 @@ TEST_F(LoopResultsTest, WritesAllFilesOfARun) {
   EXPECT_EQ(Rows("covariance_map.csv"), 1 + 4);  // including the header
   EXPECT_EQ(Rows("trajectory_final.tum"), 4);
   EXPECT_THAT(folder_.Read("loops.csv"), HasSubstr("result"));
-  EXPECT_THAT(folder_.Read("pose_graph.g2o"), HasSubstr("EDGE_SE3:QUAT 0 1"));
-  EXPECT_TRUE(std::filesystem::exists(folder_.File("colmap/images.txt")));
   const Json summary = results.Summary();
   EXPECT_EQ(summary["keyframes"], 2);  // at 0 and at 0.3 m
   EXPECT_EQ(summary["map_keyframes"], 2);
   EXPECT_EQ(summary["accepted"], 0);
   EXPECT_EQ(summary["first_fix_s"], 0.0);
   EXPECT_EQ(results.Finding(), "");  // no map was loaded
-}
-
-// Rays of keyframes and landmarks refer to the refined camera.
-TEST_F(LoopResultsTest, HasAModelWhosePointsProjectToTheirCornersWithItsCamera) {
-  CameraParameters refined = config_.sensor.cameras[0].parameters;
-  refined.fx = 206;
-  refined.cx = 163;
-  refined.distortion = {-0.1, 0.01, 0.001, -0.002};
-  const auto configured_camera = CameraModel::Create(config_.sensor.cameras[0].parameters);
-  const auto refined_camera = CameraModel::Create(refined);
-  PipelineFrame frame = FrameAt(0);
-  frame.output.calibration.cameras[0].parameters = refined;
-  for (int i = 0; i < 6; ++i) {
-    const Eigen::Vector2d uv_px(50 + 40 * i, 40 + 30 * i);
-    frame.points.points.push_back({i, *configured_camera->Unproject(uv_px), uv_px, {0, 0}});
-    frame.output.points.push_back({i, (4 + i) * refined_camera->Unproject(uv_px)->homogeneous()});
-  }
-  LoopResults results(config_, folder_.path(), std::nullopt);
-  results.Add(frame);
-  results.Finish();
-
-  const auto camera = ColmapCamera();
-  const auto corners = ColmapCorners();
-  std::istringstream points(folder_.Read("colmap/points3D.txt"));
-  int count = 0;
-  for (std::string line; std::getline(points, line); ++count) {
-    int64_t id = 0;
-    Eigen::Vector3d p_C;  // the camera is at the origin of the map
-    std::istringstream(line) >> id >> p_C.x() >> p_C.y() >> p_C.z();
-    EXPECT_LT((*camera->Project(p_C) - corners.at(id)).norm(), 0.01) << id;
-  }
-  EXPECT_EQ(count, 6);
 }
 
 TEST_F(LoopResultsTest, WaitsForPoses) {

@@ -73,8 +73,8 @@ TEST(ResultFiles, ATrackImageHasPointsAndLinesSideBySide) {
 
 TEST(ResultFiles, ReplaceThoseOfAnEarlierRun) {
   const testing::TemporaryFolder folder;
-  for (const char* name : {"trajectory_map.tum", "loops.csv", "colmap/images.txt", "summary.json",
-                           "line_tracks.png", "tracks/1403636579.jpg"}) {
+  for (const char* name : {"trajectory_map.tum", "loops.csv", "summary.json", "line_tracks.png",
+                           "tracks/1403636579.jpg"}) {
     folder.Write(name, "of the run before");
   }
   for (const char* name : {"notes.txt", "tracks/gps.log", "tracks/start.jpg"}) {
@@ -83,7 +83,6 @@ TEST(ResultFiles, ReplaceThoseOfAnEarlierRun) {
   const ResultFiles results(folder.path());
   EXPECT_FALSE(fs::exists(folder.File("trajectory_map.tum")));
   EXPECT_FALSE(fs::exists(folder.File("loops.csv")));
-  EXPECT_FALSE(fs::exists(folder.File("colmap")));
   EXPECT_FALSE(fs::exists(folder.File("summary.json")));
   EXPECT_FALSE(fs::exists(folder.File("line_tracks.png")));
   EXPECT_FALSE(fs::exists(folder.File("tracks/1403636579.jpg")));

@@ -29,14 +29,14 @@ class KeyframeAssemblyTest : public ::testing::Test {
 
   void AddTheRest(int64_t t_ns) {
     assembly_.AddCorners(t_ns, {});
-    assembly_.AddSegments(t_ns, {}, std::nullopt);
+    assembly_.AddSegments(t_ns, {});
   }
 
   KeyframeAssembly assembly_{/*stamp_tolerance=*/0.002};
 };
 
 TEST_F(KeyframeAssemblyTest, JoinsEqualStampsInAnyOrder) {
-  assembly_.AddSegments(5, std::vector<TrackedSegment>(2), Eigen::Quaterniond(0.6, 0, 0, 0.8));
+  assembly_.AddSegments(5, std::vector<TrackedSegment>(2));
   assembly_.AddCorners(5, std::vector<TrackedCorner>(3));
   AddPose(5);
   EXPECT_FALSE(assembly_.Pop());
@@ -49,7 +49,6 @@ TEST_F(KeyframeAssemblyTest, JoinsEqualStampsInAnyOrder) {
   EXPECT_EQ(frame->T_O_B.translation.x(), 5);
   EXPECT_EQ(frame->corners.size(), 3u);
   EXPECT_EQ(frame->segments.size(), 2u);
-  EXPECT_EQ(frame->R_O_Manhattan->w(), 0.6);
   EXPECT_EQ(frame->images.at(0).gray.at<uchar>(0, 0), 7);
   EXPECT_FALSE(assembly_.Pop());
 }
@@ -144,7 +143,7 @@ TEST_F(KeyframeAssemblyTest, CountsAKeyframeWhoseImageWasLostOnTheWay) {
   AddTheRest(2 * kPeriod);
   AddPose(3 * kPeriod);  // its corners are lost as well
   AddAllButLines(4 * kPeriod);
-  assembly_.AddSegments(4 * kPeriod, {}, std::nullopt);
+  assembly_.AddSegments(4 * kPeriod, {});
   EXPECT_TRUE(assembly_.Pop());
   EXPECT_EQ(assembly_.without_image(), 1);
 }
@@ -153,7 +152,7 @@ TEST_F(KeyframeAssemblyTest, TimeoutDoesNotDependOnTheRate) {
   constexpr int64_t kFast = kPeriod / 10;
   AddAllButLines(kFast);
   for (int i = 2; i < 250; ++i) AddImage(i * kFast);
-  assembly_.AddSegments(kFast, {}, std::nullopt);
+  assembly_.AddSegments(kFast, {});
   EXPECT_TRUE(assembly_.Pop());
 }
 
@@ -168,7 +167,7 @@ TEST_F(KeyframeAssemblyTest, HasABoundAtAnyRate) {
 TEST_F(KeyframeAssemblyTest, DeliversTheOldestFirst) {
   for (int i = 100; i < 200; ++i) AddPose(i * kPeriod);
   AddAllButLines(kPeriod);
-  assembly_.AddSegments(kPeriod, {}, std::nullopt);
+  assembly_.AddSegments(kPeriod, {});
   const auto frame = assembly_.Pop();
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->t_ns, kPeriod);
@@ -183,7 +182,7 @@ TEST_F(KeyframeAssemblyTest, RestartsIfImagesJumpBack) {
   const auto frame = assembly_.Pop();
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->t_ns, 20 * kPeriod);
-  assembly_.AddSegments(200 * kPeriod, {}, std::nullopt);
+  assembly_.AddSegments(200 * kPeriod, {});
   EXPECT_FALSE(assembly_.Pop());
 }
 
@@ -192,7 +191,7 @@ TEST_F(KeyframeAssemblyTest, ToleratesSwappedImagesAndOneWrongStamp) {
   AddImage(19 * kPeriod);
   AddImage(20'000 * kPeriod);
   AddImage(21 * kPeriod);
-  assembly_.AddSegments(20 * kPeriod, {}, std::nullopt);
+  assembly_.AddSegments(20 * kPeriod, {});
   const auto frame = assembly_.Pop();
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->t_ns, 20 * kPeriod);
@@ -201,11 +200,11 @@ TEST_F(KeyframeAssemblyTest, ToleratesSwappedImagesAndOneWrongStamp) {
 TEST_F(KeyframeAssemblyTest, StartsOverWhenCleared) {
   AddAllButLines(2);
   assembly_.Clear();
-  assembly_.AddSegments(2, {}, std::nullopt);
+  assembly_.AddSegments(2, {});
   EXPECT_FALSE(assembly_.Pop());
   AddPose(1);
   assembly_.AddCorners(1, {});
-  assembly_.AddSegments(1, {}, std::nullopt);
+  assembly_.AddSegments(1, {});
   AddImage(1);
   EXPECT_TRUE(assembly_.Pop()) << "it goes back behind what is forgotten";
 }

@@ -48,7 +48,7 @@ class KeyframeInputTest : public ::testing::Test {
     input->AddImage(0, {5, image_});
     input->AddPose(pose);
     input->AddPoints(ToKeyframePoints(corners_, 5, "world"));
-    input->AddLines(ToKeyframeLines(segments_, R_O_Manhattan_, 5, "world"));
+    input->AddLines(ToKeyframeLines(segments_, 5, "world"));
     for (const DropCount& drop : input->Drops()) drops_[drop.cause] = drop.count;
     return input->Pop();
   }
@@ -57,7 +57,6 @@ class KeyframeInputTest : public ::testing::Test {
   cv::Mat image_;
   std::vector<TrackedCorner> corners_;
   std::vector<TrackedSegment> segments_;
-  std::optional<Eigen::Quaterniond> R_O_Manhattan_;
   std::map<std::string, int64_t> drops_;  // for the last keyframe
 };
 
@@ -140,8 +139,8 @@ TEST_F(KeyframeInputTest, CountsMessagesOfAnotherLayout) {
   sensor_msgs::PointCloud message = ToKeyframePoints(corners_, 5, "world");
   message.channels[2].values.resize(3);
   input.AddPoints(message);
-  R_O_Manhattan_ = Eigen::Quaterniond(0, 0, 0, 0);
-  input.AddLines(ToKeyframeLines(segments_, R_O_Manhattan_, 5, "world"));
+  message.channels[2].values.resize(5);
+  input.AddLines(message);  // two points for each
   const DropCount malformed = input.Drops().front();
   EXPECT_EQ(malformed.cause, "keyframe_messages_malformed");
   EXPECT_EQ(malformed.count, 2);

@@ -122,33 +122,6 @@ TEST_F(LoopVerificationTest, RejectsIfMostLandmarksAreElsewhere) {
   EXPECT_EQ(Verify().failed, LoopGate::kInliers);
 }
 
-Eigen::Quaterniond Turned(double degrees) {
-  return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitZ()));
-}
-
-TEST_F(LoopVerificationTest, RejectsATurnedManhattanFrame) {
-  Keyframe first = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
-  Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
-  first.R_O_Manhattan = Turned(0);
-  later.world = first.world + 1;
-  later.R_O_Manhattan = Turned(100);  // the world is rotated by 10, the frame by a quarter turn
-  EXPECT_FALSE(VerifyPair(first, later).failed);
-  later.R_O_Manhattan = Turned(105);
-  EXPECT_EQ(VerifyPair(first, later).failed, LoopGate::kManhattan);
-}
-
-TEST_F(LoopVerificationTest, IgnoresManhattanFramesWithinOneWorld) {
-  Keyframe first = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
-  Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
-  first.R_O_Manhattan = Turned(0);
-  later.R_O_Manhattan = Turned(2);  // equal frames, but the loop rotates its world by 10
-  EXPECT_EQ(VerifyPair(first, later).failed, LoopGate::kManhattan);
-  later.R_O_Manhattan = Turned(30);  // another frame
-  const LoopCandidate candidate = VerifyPair(first, later);
-  EXPECT_FALSE(candidate.failed);
-  EXPECT_FALSE(candidate.manhattan_error);
-}
-
 TEST_F(LoopVerificationTest, RejectsMatchesInOneImageCornerOnly) {
   wall_ = Wall(1, 0);
   simulator::Random random(6);

@@ -83,5 +83,24 @@ TEST_F(EpipolarSearchTest, RejectsRepetitivePatterns) {
   EXPECT_FALSE(Search(Point(0.1, 0.1), {0, 3, 0}));
 }
 
+// Two bars that differ by less than the noise of an image.
+TEST_F(EpipolarSearchTest, RejectsASecondBarThatIsAlmostTheSame) {
+  const auto draw = [](int column, int gray, cv::Mat* image) {
+    image->col(column) = cv::Scalar(gray);
+    image->col(column + 1) = cv::Scalar(200);
+    image->col(column + 2) = cv::Scalar(150);
+  };
+  const SearchedPoint point = Point(0.1, 0.1);
+  const auto place = pair_.Project(point.xy, 1.0);
+  const int left = cvRound(point.pixel.x()), right = cvRound(place->x());
+  left_.setTo(100);
+  right_.setTo(100);
+  draw(left, 150, &left_);
+  draw(right, 150, &right_);
+  ASSERT_TRUE(Search(point, {0, 3, 0}));
+  draw(right + 12, 134, &right_);
+  EXPECT_FALSE(Search(point, {0, 3, 0}));
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -40,15 +40,6 @@ TEST(ContradictionReport, ListsOnlyWhatTheRotationsLeaveOpen) {
   EXPECT_THAT(DescribeContradiction(evidence), Not(HasSubstr("check")));
 }
 
-// In a lift, the view moves along.
-TEST(ContradictionReport, BlamesNoCalibrationIfTheCameraRests) {
-  ContradictionEvidence evidence = Evidence();
-  evidence.camera_rests = true;
-  const std::string text = DescribeContradiction(evidence);
-  EXPECT_THAT(text, HasSubstr("the camera sees no motion that the IMU feels"));
-  EXPECT_THAT(text, Not(HasSubstr("extrinsicRotation")));
-}
-
 TEST(ContradictionReport, NamesKnownCausesFirst) {
   ContradictionEvidence evidence = Evidence();
   evidence.accel_noise_factor = 12;

@@ -28,7 +28,7 @@ TEST(ConfigJson, HasTheNamesGroupsAndTypesOfTheFile) {
   EXPECT_EQ(json["extrinsicRotation"].size(), 9u);
   EXPECT_EQ(json["line_anchors"], 7);
   EXPECT_EQ(json["corner_detector"], "harris");
-  EXPECT_EQ(json["verbose"], false);
+  EXPECT_EQ(json["loop_closure"], false);
   EXPECT_EQ(json["base_frame"], "");
 }
 

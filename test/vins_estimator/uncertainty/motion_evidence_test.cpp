@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "common/config/config.h"
@@ -138,54 +139,71 @@ void AddEvidence(const DensityEvidence& evidence, DensityEvidence* sum) {
   sum->slope += evidence.slope;
 }
 
-// Sums over windows with noise, optimized after `assume` has changed their assumed noise.
-ImuNoiseEvidence SumOverWindows(const std::function<void(SlidingWindow*)>& assume) {
-  ImuNoiseEvidence sum;
-  for (uint64_t seed = 1; seed <= 30; ++seed) {
-    SimulatedWindow simulated = testing::SimulateShakenWindow(seed);
-    SlidingWindow& window = simulated.window;
-    assume(&window);
-    const auto prior = InitialPrior(InitialUncertainty(), Options(), window);
-    ProblemBuilder builder(Options(), &window, &prior);
-    testing::AddAll(&simulated, &builder);
-    NormalEquations equations(builder.problem());
-    SolverOptions options;
-    options.max_iterations = 20;
-    SolveBy(SolverType::kSchur, options, builder.problem(), &equations);
-    const auto evidence = EvidenceAt(kFrame, window, &equations).value();
-    AddEvidence(evidence.accel, &sum.accel);
-    AddEvidence(evidence.gyro, &sum.gyro);
+// Windows with noise, simulated once.
+class EvidenceInWindows : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    for (uint64_t seed = 1; seed <= 30; ++seed) {
+      windows_.push_back(testing::SimulateShakenWindow(seed));
+    }
   }
-  return sum;
-}
+  static void TearDownTestSuite() { windows_.clear(); }
+
+  // Sums over the windows, optimized after `assume` has changed their assumed noise.
+  static ImuNoiseEvidence Sum(const std::function<void(SlidingWindow*)>& assume) {
+    ImuNoiseEvidence sum;
+    for (SimulatedWindow simulated : windows_) {
+      SlidingWindow& window = simulated.window;
+      for (WindowFrame& frame : window.frames) {
+        auto& motion = frame.motion_since_previous;
+        if (motion) motion = std::make_shared<Preintegration>(*motion);
+      }
+      assume(&window);
+      const auto prior = InitialPrior(InitialUncertainty(), Options(), window);
+      ProblemBuilder builder(Options(), &window, &prior);
+      testing::AddAll(&simulated, &builder);
+      NormalEquations equations(builder.problem());
+      SolverOptions options;
+      options.max_iterations = 20;
+      SolveBy(SolverType::kSchur, options, builder.problem(), &equations);
+      const auto evidence = EvidenceAt(kFrame, window, &equations).value();
+      AddEvidence(evidence.accel, &sum.accel);
+      AddEvidence(evidence.gyro, &sum.gyro);
+    }
+    return sum;
+  }
+
+  static std::vector<SimulatedWindow> windows_;
+};
+std::vector<SimulatedWindow> EvidenceInWindows::windows_;
 
 // A ratio with n degrees of freedom has the standard deviation sqrt(2 / n).
 double Tolerance(const DensityEvidence& sum) { return 3 * std::sqrt(2 / sum.expected); }
 
-TEST(EvidenceOfMotion, MatchesExpectationForCorrectNoise) {
-  const ImuNoiseEvidence sum = SumOverWindows([](SlidingWindow*) {});
+TEST_F(EvidenceInWindows, MatchesExpectationForCorrectNoise) {
+  const ImuNoiseEvidence sum = Sum([](SlidingWindow*) {});
   EXPECT_GT(sum.accel.expected, 20);
   EXPECT_GT(sum.gyro.expected, 20);
   EXPECT_NEAR(sum.accel.squared / sum.accel.expected, 1, Tolerance(sum.accel));
   EXPECT_NEAR(sum.gyro.squared / sum.gyro.expected, 1, Tolerance(sum.gyro));
 }
 
-TEST(EvidenceOfMotion, ShowsNoiseThatIsGreaterThanAssumed) {
+TEST_F(EvidenceInWindows, ShowsNoiseThatIsGreaterThanAssumed) {
   const ImuNoiseEvidence sum =
-      SumOverWindows([](SlidingWindow* window) { testing::ScaleAssumedNoise(1.0 / 16, window); });
+      Sum([](SlidingWindow* window) { testing::ScaleAssumedNoise(1.0 / 16, window); });
   EXPECT_GT(sum.accel.squared / sum.accel.expected, 6);
   EXPECT_GT(sum.gyro.squared / sum.gyro.expected, 6);
 }
 
 // The variance of one source in this interval is four times the assumed one, or a quarter of it.
-TEST(EvidenceOfMotion, GrowsWithTheNoiseByTheSlope) {
+TEST_F(EvidenceInWindows, GrowsWithTheNoiseByTheSlope) {
   for (const double share : {0.5, 2.0}) {
     const double more = 1 / (share * share) - 1;
     const auto of_accel = [share](SlidingWindow* window) { Assume(share, 1, window); };
-    const DensityEvidence accel = SumOverWindows(of_accel).accel;
+    const DensityEvidence accel = Sum(of_accel).accel;
     EXPECT_NEAR(accel.squared / (accel.expected + more * accel.slope), 1, 0.25) << share;
     const auto of_gyro = [share](SlidingWindow* window) { Assume(1, share, window); };
-    const DensityEvidence gyro = SumOverWindows(of_gyro).gyro;
+    const DensityEvidence gyro = Sum(of_gyro).gyro;
     EXPECT_NEAR(gyro.squared / (gyro.expected + more * gyro.slope), 1, 0.25) << share;
   }
 }

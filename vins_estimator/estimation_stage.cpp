@@ -218,18 +218,17 @@ RankedFinding EstimationStage::FindInputFault() const {
 RankedFinding EstimationStage::FindRotationFault() const {
   RankedFinding worst;
   std::string inverted;
-  bool is_any = false, are_several = false;
+  bool are_several = false;
   for (size_t i = 0; i < world_->rotation_checks.size(); ++i) {
     const RotationCheck& check = world_->rotation_checks[i];
     const RankedFinding& found = check.ranked_finding();
     if (found.sigmas > worst.sigmas) worst = found;
     const bool may_be = check.is_inverted() || (found.text.empty() && !check.agrees());
-    is_any |= check.is_inverted();
     if (!may_be) continue;
     are_several = !inverted.empty();
     inverted += (are_several ? " and " : "") + TransformKey(static_cast<int>(i));
   }
-  if (!is_any || !are_several) return worst;
+  if (!world_->rotation_checks.front().is_inverted() || !are_several) return worst;
   return {inverted +
               " are inverted, by the rotations of cameras and gyro: give the cameras in the "
               "IMU frame (T_imu_cam), not the IMU in the camera frames (T_cam_imu)",

@@ -54,7 +54,7 @@ MISTAKES = [
       for unit in (0.01, 0.005, 0.00328, 0.0011, 0.0009, 0.0001)),
     ("both inverted", STEREO, {"T0": np.linalg.inv(T0), "T1": np.linalg.inv(T1)}, "invert|inverse"),
     ("first inverted", MONO, {"T0": np.linalg.inv(T0)}, "inverse"),
-    ("second inverted", STEREO, {"T1": np.linalg.inv(T1)}, "body_T_cam1"),
+    ("second inverted", STEREO, {"T1": np.linalg.inv(T1)}, "(?<!and )body_T_cam1"),
     ("second on the other side", STEREO, {"T1": beside(-1)}, "swapped|body_T_cam1"),
     ("cameras swapped", STEREO, {"image_topic": "/cam1", "image1_topic": "/cam0"}, "swapped"),
     ("second turned by 1 deg", STEREO, {"T1": transform(turned("y", 1), P_B_C1)}, "turned by"),

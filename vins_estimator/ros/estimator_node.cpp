@@ -232,7 +232,7 @@ void EstimatorNode::WarnWithoutCalibrationAtEnd() const {
 }
 
 std::string EstimatorNode::Save(const std::string& trajectory_file) const {
-  const std::string saved =
+  std::string saved =
       std::to_string(trajectory_.Save(trajectory_file)) + " poses saved to " + trajectory_file;
   try {
     calibration_.Save(FolderOf(trajectory_file));

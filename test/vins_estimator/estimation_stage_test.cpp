@@ -301,29 +301,6 @@ TEST(EstimationStage, FindsAWrongRotationAfterStampsJumpedBack) {
       << stage.InputFinding().text;
 }
 
-// A second camera at the place of the first one, whose transform alone is stated inversely.
-TEST(EstimationStage, NamesOnlyTheTransformThatIsInverted) {
-  testing::SimulatedFlight flight = GentleFlightFor(16);
-  for (FrameMeasurement& frame : flight.frames) {
-    std::vector<PointObservation>& points = frame.points.points;
-    const std::vector<PointObservation> first = points;
-    for (PointObservation point : first) {
-      point.camera = 1;
-      point.id += 1'000'000;
-      points.push_back(point);
-    }
-  }
-  Config config = testing::ConfigFor(flight);
-  config.use_lines = false;
-  std::vector<CameraSensor>& cameras = config.sensor.cameras;
-  cameras.push_back(cameras.front());
-  cameras.back().T_B_C = cameras.front().T_B_C.Inverse();
-  EstimationStage stage(config);
-  Fly(flight, &stage);
-  EXPECT_EQ(stage.InputFinding().text.rfind("body_T_cam1 is wrong by ", 0), 0u)
-      << stage.InputFinding().text;
-}
-
 TEST(EstimationStage, FindsAWrongTimeOffset) {
   for (const double delay : {-0.03, 0.03}) {
     testing::SimulatedFlight flight = GentleFlightFor(20);

@@ -6,13 +6,14 @@ of trajectory_final.tum if the run has loop closure. The model then has no point
 that of the odometry; COLMAP's point_triangulator makes them."""
 
 import argparse
+import dataclasses
 import json
 import pathlib
 import sys
 
 import numpy as np
 
-from evaluation.trajectory import RESTART
+from evaluation.trajectory import RESTART, Trajectory, quaternions_of, rotations_of
 
 MODELS = {"PINHOLE": "OPENCV", "EQUIDISTANT": "OPENCV_FISHEYE", "KANNALA_BRANDT": "OPENCV_FISHEYE"}
 GRAY = "128 128 128 0"  # color, and an unknown error
@@ -35,7 +36,8 @@ def export(run, output, every):
 
 
 def read_poses(path, every):
-    """Returns the names of images, and the poses of the body in the first world frame (n, 7)."""
+    """Returns the names of images, and the poses of the body in the first world frame. Names have
+    all digits of the timestamps, which floats do not."""
     rows = []
     with open(path, encoding="utf-8") as file:
         for line in file:
@@ -43,7 +45,8 @@ def read_poses(path, every):
                 break
             rows.append(line.split())
     names = [f"{int(row[0].replace('.', ''))}.png" for row in rows[::every]]
-    return names, np.array([row[1:] for row in rows[::every]], dtype=float).reshape(-1, 7)
+    table = np.array(rows[::every], dtype=float).reshape(-1, 8)
+    return names, Trajectory(table[:, 0], table[:, 1:4], rotations_of(table[:, 4:8]))
 
 
 def read_points(path):
@@ -58,29 +61,18 @@ def camera_line(config, calibration):
     return f"1 {MODELS[config['model_type']]} " + " ".join(str(number) for number in numbers)
 
 
-def camera_poses(poses, calibration):
-    """Returns positions (n, 3) and rotations (n, 4), as w x y z, of the world in the camera."""
-    q_W_C = multiply(poses[:, 3:], np.array(calibration["q_B_C_xyzw"]))
-    q_C_W = q_W_C * [-1, -1, -1, 1]
-    p_W_C = poses[:, :3] + rotate(poses[:, 3:], np.array(calibration["p_B_C_m"]))
-    return -rotate(q_C_W, p_W_C), q_C_W[:, [3, 0, 1, 2]]
-
-
-def multiply(a, b):
-    """Multiplies quaternions x y z w."""
-    u, v, s, t = a[..., :3], b[..., :3], a[..., 3:], b[..., 3:]
-    return np.concatenate([s * v + t * u + np.cross(u, v),
-                           s * t - np.sum(u * v, axis=-1, keepdims=True)], axis=-1)
-
-
-def rotate(q, p):
-    t = 2 * np.cross(q[..., :3], p)
-    return p + q[..., 3:] * t + np.cross(q[..., :3], t)
+def camera_poses(body, calibration):
+    """Returns the poses of the world in the camera."""
+    R_B_C = rotations_of(np.array([calibration["q_B_C_xyzw"]]))[0]
+    positions = body.positions + body.rotations @ np.array(calibration["p_B_C_m"])
+    camera = dataclasses.replace(body, positions=positions, rotations=body.rotations @ R_B_C)
+    return camera.inverse()
 
 
 def image_lines(names, poses):
     """Each image is followed by an empty line, since it has no features."""
-    for number, (name, p, q) in enumerate(zip(names, *poses), start=1):
+    quaternions = quaternions_of(poses.rotations)[:, [3, 0, 1, 2]]
+    for number, (name, q, p) in enumerate(zip(names, quaternions, poses.positions), start=1):
         yield f"{number} " + " ".join(f"{value:.9f}" for value in (*q, *p)) + f" 1 {name}\n"
 
 

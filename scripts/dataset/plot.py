@@ -3,12 +3,9 @@
 
 import os
 
-import matplotlib
+from evaluation.plots import pyplot, save
 
-matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402 (the backend must be chosen first)
-
-from .results import METRIC  # noqa: E402
+from .results import METRIC
 
 
 def write_plot(folder, results):
@@ -27,7 +24,4 @@ def write_plot(folder, results):
     axis.set(ylabel=metric.title, ylim=(0, None))
     axis.grid(axis="y", alpha=0.3)
     axis.legend(fontsize="small")
-    path = os.path.join(folder, "ape.png")
-    figure.savefig(path, dpi=120)
-    pyplot.close(figure)
-    return path
+    return save(figure, os.path.join(folder, "ape.png"))

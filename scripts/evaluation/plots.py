@@ -19,11 +19,15 @@ def write_plots(folder, estimate, truth):
     paths = []
     for name, draw in (("trajectory.png", trajectory_figure), ("ape.png", errors_figure),
                        ("translation.png", translation_figure)):
-        figure = draw(estimate, truth)
-        paths.append(os.path.join(folder, name))
-        figure.savefig(paths[-1], dpi=120)
-        pyplot.close(figure)
+        paths.append(save(draw(estimate, truth), os.path.join(folder, name)))
     return paths
+
+
+def save(figure, path):
+    """Writes and closes the figure; returns the path."""
+    figure.savefig(path, dpi=120)
+    pyplot.close(figure)
+    return path
 
 
 def trajectory_figure(estimate, truth):

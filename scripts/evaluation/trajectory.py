@@ -67,7 +67,8 @@ class Trajectory:
         positions = (1 - share) * self.positions[before] + share * self.positions[after]
         quaternions = _slerp(quaternions_of(self.rotations[before]),
                              quaternions_of(self.rotations[after]), share)
-        return replace(self, stamps=stamps, positions=positions, rotations=_rotations(quaternions))
+        return replace(self, stamps=stamps, positions=positions,
+                       rotations=rotations_of(quaternions))
 
     def transformed(self, rotation, translation):
         """Transforms the motion to another world frame: p' = rotation * p + translation."""
@@ -84,7 +85,7 @@ class Trajectory:
 def with_rolled_quaternions(trajectory, places):
     """Reinterprets quaternions that were read in another order than that of the file: `places` is
     -1 for files with w x y z that were read as x y z w, and 1 for the opposite."""
-    return replace(trajectory, rotations=_rotations(
+    return replace(trajectory, rotations=rotations_of(
         np.roll(quaternions_of(trajectory.rotations), places, axis=1)))
 
 
@@ -108,7 +109,7 @@ def read_trajectory(path, least=LEAST_POSES):
     table = np.array(rows).reshape(-1, 8)
     if len(rows) > 1:
         _check_unit(path, table[:, 0], is_csv="," in line)
-    return Trajectory(table[:, 0], table[:, 1:4], _rotations(table[:, 4:8]), worlds)
+    return Trajectory(table[:, 0], table[:, 1:4], rotations_of(table[:, 4:8]), worlds)
 
 
 def read_truth(path):
@@ -179,7 +180,7 @@ def _check_unit(path, stamps, is_csv):
                               f" {expected}; multiply the first column by {factor:g}")
 
 
-def _rotations(quaternions):
+def rotations_of(quaternions):
     """Returns rotation matrices (n, 3, 3) of quaternions (n, 4) in the order x y z w, of any
     length."""
     x, y, z, w = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T

@@ -14,6 +14,7 @@ import numpy as np
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
 sys.path.insert(0, SCRIPTS)
 import export_colmap  # noqa: E402
+from evaluation.trajectory import rotations_of  # noqa: E402
 
 # The body is turned by 90 degrees about z, the camera in it by 90 degrees about x.
 HALF = np.sqrt(0.5)
@@ -49,9 +50,9 @@ class ExportColmapTest(unittest.TestCase):
     def test_the_point_is_in_front_of_the_camera(self):
         _, w, x, y, z, *p, camera, name = self.exported("images.txt")[0].split()
         self.assertEqual((camera, name), ("1", "1403636579763555584.png"))
-        q_C_W, p_C = np.array([x, y, z, w], dtype=float), np.array(p, dtype=float)
+        q_C_W, p_C = np.array([[x, y, z, w]], dtype=float), np.array(p, dtype=float)
         point = self.exported("points3D.txt")[0].split()
-        at = export_colmap.rotate(q_C_W, np.array(point[1:4], dtype=float)) + p_C
+        at = rotations_of(q_C_W)[0] @ np.array(point[1:4], dtype=float) + p_C
         # In the body (0.2, -2.4, -0.1), of which the camera is at (0.1, 0, 0) and looks along -y.
         np.testing.assert_allclose(at, [0.1, -0.1, 2.4], atol=1e-8)
 

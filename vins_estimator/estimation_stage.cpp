@@ -157,9 +157,8 @@ std::string EstimationStage::ImuContradiction() const {
     return Format("the IMU rate is %.1f Hz; at least %.0f Hz is needed: raise the driver's rate",
                   1 / imu_interval, 1 / kMaxImuInterval);
   }
-  const EstimatorReport& newest = world_->newest;
   const ImuNoise& configured = config_.sensor.imu_noise;
-  const ImuNoise& noise = newest.has_pose ? newest.imu_noise : configured;
+  const ImuNoise& noise = EstimatedNoise();
   ContradictionEvidence evidence;
   evidence.noise_factor = NoiseFactor();
   const bool at_limit = IsAtLimit(noise.accel_density, configured.accel_density) ||
@@ -178,17 +177,21 @@ std::string EstimationStage::ImuContradiction() const {
   return DescribeContradiction(evidence);
 }
 
+const ImuNoise& EstimationStage::EstimatedNoise() const {
+  const EstimatorReport& newest = world_->newest;
+  return newest.has_pose ? newest.imu_noise : config_.sensor.imu_noise;
+}
+
 // The noise scale is that of both sensors; the samples of either may show it, by vibration.
 double EstimationStage::NoiseFactor() const {
-  const EstimatorReport& newest = world_->newest;
   const ImuNoise& configured = config_.sensor.imu_noise;
-  const ImuNoise& noise = newest.has_pose ? newest.imu_noise : configured;
+  const ImuNoise& noise = EstimatedNoise();
   const ImuNoiseMeter& samples = world_->imu_noise_meter;
   const double accel =
       noise.accel_density / std::max(configured.accel_density, samples.accel_density());
   const double gyro =
       noise.gyro_density / std::max(configured.gyro_density, samples.gyro_density());
-  return std::max({std::sqrt(newest.imu_noise_scale) * std::min(accel, gyro), accel, gyro});
+  return std::max({std::sqrt(world_->newest.imu_noise_scale) * std::min(accel, gyro), accel, gyro});
 }
 
 const Finding& EstimationStage::InputFinding() const { return world_->input_faults.finding(); }
@@ -208,8 +211,9 @@ RankedFinding EstimationStage::FindInputFault() const {
   const RankedFinding lengths = {lengths_->Finding(), lengths_->Contradiction()};
   // A wrong focal length or rotation makes lengths wrong; a wrong length turns no camera.
   const RankedFinding& worst = rotations.text.empty() ? lengths : rotations;
-  if (worst.text.empty() && estimator_->ViewMovesAlong()) return {kUnseen, kUnfeltMotion};
-  if (!worst.text.empty() || !estimator_->SeesUnfeltMotion()) return worst;
+  if (!worst.text.empty()) return worst;
+  if (estimator_->ViewMovesAlong()) return {kUnseen, kUnfeltMotion};
+  if (!estimator_->SeesUnfeltMotion()) return {};
   return {world_->newest.has_pose ? kUnfeltInFlight : kUnfeltBeforeStart, kUnfeltMotion};
 }
 

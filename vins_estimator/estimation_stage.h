@@ -104,6 +104,8 @@ class EstimationStage {
   void StartOver(const std::string& reason);
   // Repeats the estimate from the stored images without the lengths that are wrong.
   void RepeatWithoutWrongLengths();
+  // Returns the noise densities of the newest estimate; the configured ones before the start.
+  const ImuNoise& EstimatedNoise() const;
   // Returns the ratio of the estimated noise to the configured one, or to that which the samples
   // show if it is greater.
   double NoiseFactor() const;

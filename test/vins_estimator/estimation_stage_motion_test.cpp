@@ -53,10 +53,7 @@ TEST(EstimationStageMotion, NamesConstantSpeedFirst) {
 
 // A second camera at the place of the first one, whose transform alone is stated inversely.
 TEST(EstimationStageMotion, NamesOnlyTheTransformThatIsInverted) {
-  testing::FlightPlan plan;
-  plan.duration = 16;
-  plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
-  testing::SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
+  testing::SimulatedFlight flight = testing::PlannedFlight(testing::GentlePlan(16)).Simulate();
   for (FrameMeasurement& frame : flight.frames) {
     const std::vector<PointObservation> first = frame.points.points;
     for (PointObservation point : first) {

@@ -229,10 +229,7 @@ int64_t CountRepeated(const EstimationStage& stage) {
 }
 
 testing::SimulatedFlight GentleFlightFor(double duration) {
-  testing::FlightPlan plan;
-  plan.duration = duration;
-  plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
-  return testing::PlannedFlight(plan).Simulate();
+  return testing::PlannedFlight(testing::GentlePlan(duration)).Simulate();
 }
 
 // Everything that the stage reports after an image, in words.
@@ -349,9 +346,7 @@ TEST(EstimationStage, NoiseFreeCameraMayStandStill) {
 
 // Vibrations in flight are observable from the images.
 TEST(EstimationStage, ReportsFarTooSmallConfiguredNoise) {
-  testing::FlightPlan plan;
-  plan.duration = 12;
-  plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
+  testing::FlightPlan plan = testing::GentlePlan(12);
   for (const double noise : {1, 20}) {
     plan.imu_noise = noise;
     const testing::SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
@@ -366,9 +361,7 @@ TEST(EstimationStage, ReportsFarTooSmallConfiguredNoise) {
 
 // Vibration shows in the samples of the IMU, so the camera does not contradict them.
 TEST(EstimationStage, SuddenVibrationIsNoContradiction) {
-  testing::FlightPlan plan;
-  plan.duration = 8;
-  plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
+  testing::FlightPlan plan = testing::GentlePlan(8);
   const testing::SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
   plan.imu_noise = 12;
   const testing::SimulatedFlight vibrating = testing::PlannedFlight(plan).Simulate();

@@ -73,10 +73,7 @@ TEST(EstimatorRobustness, ASecondWithoutPointsCostsCentimeters) {
 
 // With unchanged robust losses, the points would not correct an error of 0.3 m.
 TEST(EstimatorRobustness, KnownPointsCorrectDeadReckoning) {
-  testing::FlightPlan plan;
-  plan.duration = 12;
-  plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
-  SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
+  SimulatedFlight flight = testing::PlannedFlight(testing::GentlePlan(12)).Simulate();
   constexpr size_t kBlind = 160, kSees = 220;  // images
   for (size_t i = kBlind; i < kSees; ++i) {
     flight.frames[i].points.points.clear();

@@ -50,6 +50,14 @@ inline Rigid3d GentleFlight(double t, double begin, double end) {
   return {R_W_V, Eigen::Vector3d(0, 0, 1.5) + share * p_W};
 }
 
+// A gentle flight that begins after a second and has not ended at `duration` [s].
+inline FlightPlan GentlePlan(double duration) {
+  FlightPlan plan;
+  plan.duration = duration;
+  plan.T_W_V = [](double t) { return GentleFlight(t, 1, 100); };
+  return plan;
+}
+
 // Simulates images at 20 Hz and the IMU at 200 Hz.
 class PlannedFlight {
  public:

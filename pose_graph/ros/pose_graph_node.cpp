@@ -388,4 +388,10 @@ void PoseGraphNode::ReportState(diagnostic_updater::DiagnosticStatusWrapper* sta
   }
 }
 
+std::shared_ptr<void> MakePoseGraphNode(const Config& config, const ros::NodeHandle& node,
+                                        const ros::NodeHandle& private_node) {
+  if (!IsNeeded(config.pose_graph.loop_closure, "loop_closure", config)) return nullptr;
+  return std::make_shared<PoseGraphNode>(config, node, private_node);
+}
+
 }  // namespace plm_vins

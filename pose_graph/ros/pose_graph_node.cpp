@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "common/append.h"
-#include "common/ros/camera_names.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
+#include "common/ros/names.h"
 #include "common/ros/parameter.h"
 #include "common/ros/publish_if_wanted.h"
 #include "common/stopwatch.h"

@@ -20,11 +20,11 @@
 #include "common/append.h"
 #include "common/config/config.h"
 #include "common/finding.h"
-#include "common/ros/camera_names.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/image_subscription.h"
 #include "common/ros/msg_conversion.h"
+#include "common/ros/names.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/silent_topic.h"
 #include "common/ros/stream_monitor.h"
@@ -35,7 +35,7 @@
 
 namespace plm_vins {
 
-// What differs between the nodes of the trackers.
+// The differences between the nodes of the trackers.
 template <typename Tracker>
 struct TrackerTraits {
   const char* feature_topic;

@@ -2,7 +2,6 @@
 #include "vins_estimator/problem/observation_terms.h"
 
 #include "vins_estimator/equations/chain_variables.h"
-#include "vins_estimator/factors/depth_factor.h"
 #include "vins_estimator/factors/intrinsics_factor.h"
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/point_factor.h"

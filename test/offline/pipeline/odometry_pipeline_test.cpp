@@ -13,7 +13,7 @@
 #include "test/offline/pipeline/memory_recording.h"
 #include "test/testing/still_scene.h"
 #include "test/testing/temporary_folder.h"
-#include "vins_estimator/output/tum_format.h"
+#include "vins_estimator/output/pose_rows.h"
 
 namespace plm_vins {
 namespace {

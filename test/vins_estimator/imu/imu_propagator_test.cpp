@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "common/imu/imu_interpolation.h"
+#include "common/imu/imu_samples.h"
 #include "simulator/imu_simulator.h"
 #include "test/testing/numeric_jacobian.h"
 #include "vins_estimator/imu/preintegration.h"

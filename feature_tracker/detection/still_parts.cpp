@@ -117,10 +117,11 @@ void StillParts::Add(const ImageSample& image, const std::optional<Eigen::Quater
   if (reference != nullptr) {
     compared_ns_ = image.t_ns;
     const double share = StandingShare(*reference, image.gray, corners);
-    if (share > kStillShare || !moving_.empty()) {
-      Compare(*reference, image.gray, corners);
-    } else {
+    if (share <= kStillShare && moving_.empty()) {
       Remember({Eigen::AngleAxisd(reference->R_now_then).axis(), {}});
+    } else if (const cv::Mat turned = TurnedCells(reference->R_now_then);
+               CameraMoves(*reference, image.gray, turned)) {
+      Compare(*reference, image.gray, turned, corners);
     }
   }
   if (past_.empty() || ToSeconds(image.t_ns - past_.back().image.t_ns) >= kPastInterval) {
@@ -176,12 +177,17 @@ cv::Mat StillParts::TurnedCells(const Eigen::Quaterniond& R_now_then) const {
   return cells;
 }
 
-void StillParts::Compare(const Past& reference, const cv::Mat& gray,
+bool StillParts::CameraMoves(const Past& reference, const cv::Mat& gray,
+                             const cv::Mat& turned) const {
+  const double seconds = ToSeconds(*compared_ns_ - reference.image.t_ns);
+  return Eigen::AngleAxisd(reference.R_now_then).angle() > kSureRate * seconds ||
+         SceneMoves(reference.image.gray, gray, turned);
+}
+
+void StillParts::Compare(const Past& reference, const cv::Mat& gray, const cv::Mat& turned,
                          const std::vector<cv::Point2f>& corners) {
-  const cv::Mat turned = TurnedCells(reference.R_now_then);
   const Correlation correlation = Correlate(reference.image.gray, gray);
-  const Eigen::AngleAxisd rotation(reference.R_now_then);
-  Turn turn{rotation.axis(),
+  Turn turn{Eigen::AngleAxisd(reference.R_now_then).axis(),
             correlation.textured & turned & (correlation.covariance > kSame * correlation.product)};
   const cv::Mat still = Lasting(turn);
   Remember(std::move(turn));
@@ -190,11 +196,8 @@ void StillParts::Compare(const Past& reference, const cv::Mat& gray,
     decided += turned.at<uint8_t>(corner) != 0 ? 1 : 0;
     standing += still.at<uint8_t>(corner) != 0 ? 1 : 0;
   }
-  const double seconds = ToSeconds(*compared_ns_ - reference.image.t_ns);
-  const double rate = rotation.angle() / seconds;
-  const bool many_stand = standing >= kMinCorners && standing > kStillShare * decided;
   const bool was_masked = !moving_.empty();
-  if (many_stand && (rate > kSureRate || SceneMoves(reference.image.gray, gray, turned))) {
+  if (standing >= kMinCorners && standing > kStillShare * decided) {
     largest_share_ = std::max(largest_share_, standing / static_cast<double>(decided));
     still_area_ = std::max(still_area_, AreaOf(still) / AreaOf(turned));
   } else if (!was_masked) {

@@ -68,7 +68,10 @@ class StillParts {
                        const std::vector<cv::Point2f>& corners) const;
   // Returns the cells of the image (CV_8UC1) in which a rotation moves the scene by many pixels.
   cv::Mat TurnedCells(const Eigen::Quaterniond& R_now_then) const;
-  void Compare(const Past& reference, const cv::Mat& gray, const std::vector<cv::Point2f>& corners);
+  // Returns whether the camera moves in the world: a biased gyroscope turns at standstill as well.
+  bool CameraMoves(const Past& reference, const cv::Mat& gray, const cv::Mat& turned) const;
+  void Compare(const Past& reference, const cv::Mat& gray, const cv::Mat& turned,
+               const std::vector<cv::Point2f>& corners);
   // Returns the parts that stand still in this turn and did so in the last turn about another axis,
   // or are masked already.
   cv::Mat Lasting(const Turn& turn) const;

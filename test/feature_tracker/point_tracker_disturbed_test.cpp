@@ -110,6 +110,14 @@ TEST_F(TurningCamera, NothingIsMaskedInTurnsToOneSide) {
   EXPECT_EQ(tracker_->StillPartsFinding(), "");
 }
 
+// A biased gyroscope turns to the other side at standstill, when all stands still.
+TEST_F(TurningCamera, AStandstillIsNoTurnToTheOtherSide) {
+  const cv::Mat dots = Dots(300);
+  Turn(30, 0, 0.006, dots, 30);
+  Turn(30, -0.006, -0.006, dots, 30);
+  EXPECT_EQ(tracker_->StillPartsFinding(), "");
+}
+
 TEST_F(TurningCamera, DotsThatAreKnownAreNotTrackedFromTheFirstImageOn) {
   const cv::Mat dots = Dots(600);
   Turn(40, 0.006, 0.006, dots);

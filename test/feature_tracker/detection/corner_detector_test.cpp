@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "feature_tracker/detection/corner_detector.h"
+
 #include <gtest/gtest.h>
+
 #include <algorithm>
+
 #include "feature_tracker/detection/corner_refinement.h"
 #include "test/feature_tracker/textured_scene.h"
 

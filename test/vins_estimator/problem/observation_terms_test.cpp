@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/problem/expected_rays.h"
+#include "vins_estimator/problem/observation_terms.h"
 
 #include <gtest/gtest.h>
 

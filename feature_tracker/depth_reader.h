@@ -2,12 +2,18 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "feature_tracker/following/point_track.h"
 
 namespace plm_vins {
+
+// Returns the depth [m] at a pixel of a depth image (see DepthSample), whose integers have the
+// given unit [m]: the median of the 3 x 3 values around it. Returns nullopt if the pixel is outside
+// the image, or if values are missing or differ, as they do at the edge of an object.
+std::optional<double> DepthAt(const cv::Mat& depth, const cv::Point2f& pixel, double unit);
 
 // Reads the depths of tracked corners from depth images, and detects images without a
 // measurement: without a valid value at any corner, or with one value at all of them. Those of the

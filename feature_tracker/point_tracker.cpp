@@ -2,6 +2,7 @@
 #include "feature_tracker/point_tracker.h"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,7 @@
 #include "feature_tracker/following/outlier_rejection.h"
 #include "feature_tracker/following/point_track.h"
 #include "feature_tracker/stereo/stereo_matcher.h"
-#include "feature_tracker/track_drawing.h"
+#include "tracking/age_color.h"
 #include "tracking/images/image_check.h"
 #include "tracking/images/image_mask.h"
 #include "tracking/last_usable_image.h"
@@ -109,7 +110,21 @@ class PointTracker::Implementation {
   std::string StillPartsFinding() const { return still_parts_.Finding(); }
   void LearnFrom(const Implementation& earlier) { still_parts_.LearnFrom(earlier.still_parts_); }
   bool HasLearned() const { return still_parts_.has_learned(); }
-  cv::Mat DrawTracks() const { return DrawPointTracks(sample_.gray, tracks_); }
+
+  // Draws a disc for each corner, and a line along its motion.
+  cv::Mat DrawTracks() const {
+    constexpr int kDiscRadius_px = 3;
+    constexpr float kMotionScale = 4;  // enlarges the short motions between images
+    cv::Mat image;
+    if (!sample_.gray.empty()) cv::cvtColor(sample_.gray, image, cv::COLOR_GRAY2BGR);
+    for (const PointTrack& track : tracks_) {
+      const cv::Scalar color = AgeColor(track.length);
+      cv::circle(image, track.uv_px, kDiscRadius_px, color, cv::FILLED, cv::LINE_AA);
+      cv::line(image, track.uv_px, track.uv_px + kMotionScale * track.motion_px, color, 1,
+               cv::LINE_AA);
+    }
+    return image;
+  }
 
  private:
   void LookAtOthers(const cv::Mat& gray, const OtherViews& others) {

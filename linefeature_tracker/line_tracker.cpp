@@ -2,6 +2,7 @@
 #include "linefeature_tracker/line_tracker.h"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -15,10 +16,10 @@
 #include "linefeature_tracker/following/line_occupancy.h"
 #include "linefeature_tracker/following/line_queue.h"
 #include "linefeature_tracker/following/line_refinement.h"
-#include "linefeature_tracker/line_drawing.h"
 #include "linefeature_tracker/segments/line_track.h"
 #include "linefeature_tracker/segments/segment_sampler.h"
 #include "linefeature_tracker/stereo/line_stereo.h"
+#include "tracking/age_color.h"
 #include "tracking/images/image_check.h"
 #include "tracking/last_usable_image.h"
 
@@ -106,7 +107,24 @@ class LineTracker::Implementation {
   }
 
   const LineTrackerStatistics& statistics() const { return statistics_; }
-  cv::Mat DrawTracks() const { return DrawLineTracks(sample_.gray, tracks_); }
+
+  // Draws the lines with their ids.
+  cv::Mat DrawTracks() const {
+    constexpr int kThickness_px = 2;
+    constexpr double kFontScale = 0.35;
+    const auto to_opencv = [](const Eigen::Vector2d& p) { return cv::Point2d(p.x(), p.y()); };
+    cv::Mat image;
+    if (!sample_.gray.empty()) cv::cvtColor(sample_.gray, image, cv::COLOR_GRAY2BGR);
+    for (const LineTrack& track : tracks_) {
+      const LineSegment& segment_px = track.segment_px;
+      const cv::Scalar color = AgeColor(track.length);
+      cv::line(image, to_opencv(segment_px.start), to_opencv(segment_px.end), color, kThickness_px,
+               cv::LINE_AA);
+      cv::putText(image, std::to_string(track.id), to_opencv(segment_px.Midpoint()),
+                  cv::FONT_HERSHEY_SIMPLEX, kFontScale, color, 1, cv::LINE_AA);
+    }
+    return image;
+  }
 
  private:
   using LineTracks = std::vector<LineTrack>;  // in descending order of age

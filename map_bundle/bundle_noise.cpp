@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "common/median.h"
+#include "common/statistics.h"
 
 namespace plm_vins {
 namespace {

@@ -10,10 +10,9 @@
 
 #include "vins_estimator/equations/chain_variables.h"
 #include "vins_estimator/equations/window_problem.h"
-#include "vins_estimator/factors/bundle_priors.h"
-#include "vins_estimator/factors/depth_factor.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/factors/priors.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
 #include "vins_estimator/geometry/point_in_host.h"
 #include "vins_estimator/solver/ceres_solver.h"

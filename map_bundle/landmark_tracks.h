@@ -4,11 +4,20 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <vector>
 
-#include "pose_graph/keyframes/landmark_key.h"
-
 namespace plm_vins {
+
+// Identifies a landmark in the whole map; track numbers are unique within a world only.
+struct LandmarkKey {
+  int world = 0;
+  int64_t track = -1;
+
+  bool operator<(const LandmarkKey& other) const {
+    return std::tie(world, track) < std::tie(other.world, other.track);
+  }
+};
 
 // A landmark with its observations, at most one for each image: first those of the track in order
 // of keyframes and cameras, then those of other visits. The first one is the host.

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "common/append.h"
+#include "pose_graph/keyframes/keyframe.h"
 #include "pose_graph/keyframes/keyframe_maker.h"
-#include "pose_graph/keyframes/keyframe_neighbors.h"
 #include "pose_graph/map/landmark_update.h"
 
 namespace plm_vins {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/camera/camera_models.h"
+#include "common/camera/camera_model.h"
 #include "pose_graph/description/corner_selection.h"
 #include "pose_graph/graph/pose_graph.h"
 #include "pose_graph/keyframes/keyframe.h"

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "common/geometry/so3.h"
-#include "common/imu/imu_interpolation.h"
+#include "common/imu/imu_samples.h"
 
 namespace plm_vins {
 namespace {

@@ -15,9 +15,9 @@
 #include "common/streams/drop_counts.h"
 #include "common/streams/stamp_order.h"
 #include "tracking/gyro_predictor.h"
+#include "tracking/image_schedule.h"
 #include "tracking/missing_images.h"
 #include "tracking/pairing_queue.h"
-#include "tracking/rate_limiter.h"
 
 namespace plm_vins {
 

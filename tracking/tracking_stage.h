@@ -37,9 +37,10 @@ struct Tracked {
 // A front end, as used by the nodes and the offline runner: an ImageQueue followed by one tracker
 // for each camera that is not the second one of a pair. `kSection` is the trackers' part of the
 // configuration. Synchronous; add in order of arrival and pop until nullopt.
-template <typename Tracker, auto kSection>
+template <typename TrackerType, auto kSection>
 class TrackingStage {
  public:
+  using Tracker = TrackerType;
   using Frame = Tracked<Tracker>;
 
   // For `max_wait` see ImageQueue. Throws ConfigError if the tracker rejects its part of the

@@ -7,15 +7,14 @@
 
 #include "common/append.h"
 #include "common/format.h"
-#include "common/imu/imu_gap.h"
+#include "common/imu/imu_samples.h"
 #include "common/recent_time.h"
 #include "common/streams/stream_rhythm.h"
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/imu/imu_noise_meter.h"
 #include "vins_estimator/input/repeated_image_detector.h"
 #include "vins_estimator/lengths/stated_lengths.h"
-#include "vins_estimator/monitoring/contradiction_report.h"
-#include "vins_estimator/monitoring/sensor_report.h"
+#include "vins_estimator/monitoring/fault_report.h"
 #include "vins_estimator/rotation_calibration/rotation_check.h"
 #include "vins_estimator/uncertainty/imu_noise_estimate.h"
 

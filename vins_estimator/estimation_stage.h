@@ -18,7 +18,6 @@
 #include "vins_estimator/input/input_check.h"
 #include "vins_estimator/input/measurement_sync.h"
 #include "vins_estimator/state/estimator_output.h"
-#include "vins_estimator/state/residual_ring.h"
 
 namespace plm_vins {
 

@@ -9,7 +9,7 @@
 #include "common/append.h"
 #include "common/stopwatch.h"
 #include "vins_estimator/state/derived_covariance.h"
-#include "vins_estimator/uncertainty/state_covariance.h"
+#include "vins_estimator/uncertainty/placed_covariance.h"
 
 namespace plm_vins {
 namespace {

@@ -13,7 +13,6 @@
 #include "vins_estimator/solver/window_solver.h"
 #include "vins_estimator/uncertainty/length_evidence.h"
 #include "vins_estimator/uncertainty/placed_covariance.h"
-#include "vins_estimator/uncertainty/state_covariance.h"
 
 namespace plm_vins {
 namespace {

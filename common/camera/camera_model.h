@@ -91,4 +91,20 @@ class CameraModel {
   CameraParameters parameters_;
 };
 
+// The cameras of a rig, by number.
+using CameraModels = std::vector<std::shared_ptr<const CameraModel>>;
+
+// `Cameras` are elements with CameraParameters `parameters`, such as those of SensorConfig.
+template <typename Cameras>
+CameraModels CreateAll(const Cameras& cameras) {
+  CameraModels models;
+  for (const auto& camera : cameras) models.push_back(CameraModel::Create(camera.parameters));
+  return models;
+}
+
+// Time at which a rolling shutter reads a row, relative to the readout time of the whole image:
+// -0.5 at the top, 0 in the middle, to which the image timestamp refers (as in VINS-Mono), and 0.5
+// at the bottom. `height` is that of the image [px].
+inline double ReadoutShare(double row_px, int height) { return row_px / height - 0.5; }
+
 }  // namespace plm_vins

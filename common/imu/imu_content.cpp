@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "common/forgetting_sum.h"
-#include "common/imu/imu_range.h"
+#include "common/imu/imu_sensor.h"
+#include "common/statistics.h"
 
 namespace plm_vins {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "common/format.h"
-#include "common/imu/imu_gap.h"
-#include "common/imu/imu_range.h"
+#include "common/imu/imu_samples.h"
+#include "common/imu/imu_sensor.h"
 
 namespace plm_vins {
 namespace {

@@ -10,7 +10,7 @@
 #include "common/imu/imu_bursts.h"
 #include "common/imu/imu_gate.h"
 #include "common/measurements.h"
-#include "common/streams/backward_jump.h"
+#include "common/streams/stamp_order.h"
 
 namespace plm_vins {
 

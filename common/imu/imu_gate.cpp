@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/imu/imu_interpolation.h"
+#include "common/imu/imu_samples.h"
 
 namespace plm_vins {
 namespace {

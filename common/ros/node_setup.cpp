@@ -87,6 +87,11 @@ int RunNode(int argc, char** argv, const std::string& name,
   return RunNode(argc, argv, name, [&] { body(LoadNodeConfig(ros::NodeHandle("~"))); });
 }
 
+bool IsNeeded(bool value, const char* key, const Config& config) {
+  if (!value) ROS_INFO("not needed: %s is 0 in %s", key, config.file.c_str());
+  return value;
+}
+
 void Spin() {
   const ros::WallTimer clock_check = ros::NodeHandle().createWallTimer(
       ros::WallDuration(kClockPatience), [](const ros::WallTimerEvent&) { WarnWithoutClock(); },

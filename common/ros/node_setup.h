@@ -24,6 +24,9 @@ int RunNode(int argc, char** argv, const std::string& name, const std::function<
 int RunNode(int argc, char** argv, const std::string& name,
             const std::function<void(const Config&)>& body);
 
+// Returns `value`; if it is false, logs that the node is idle because of `key`.
+bool IsNeeded(bool value, const char* key, const Config& config);
+
 // Processes callbacks of the global queue until ROS has shut down. Warns if simulated time is
 // configured but /clock is silent.
 void Spin();

@@ -2,11 +2,11 @@
 #include "feature_tracker/detection/corner_detector.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "feature_tracker/detection/corner_refinement.h"
-#include "feature_tracker/detection/region_queue.h"
 #include "tracking/images/image_mask.h"
 
 namespace plm_vins {
@@ -38,6 +38,18 @@ cv::Mat Response(const cv::Mat& image, CornerDetectorType type) {
 }
 
 }  // namespace
+
+RegionQueue::RegionQueue(const cv::Size& image_size, int region_count)
+    : region_size_(std::sqrt(static_cast<double>(image_size.area()) / region_count)),
+      columns_(static_cast<int>(image_size.width / region_size_) + 1),
+      queue_(static_cast<size_t>(columns_) *
+             (static_cast<int>(image_size.height / region_size_) + 1)) {}
+
+size_t RegionQueue::RegionOf(const cv::Point2f& position) const {
+  const int column = static_cast<int>(position.x / region_size_);
+  const int row = static_cast<int>(position.y / region_size_);
+  return static_cast<size_t>(row) * columns_ + column;
+}
 
 CornerDetector::CornerDetector(const PointTrackerConfig& config, cv::Mat mask)
     : config_(config), mask_(std::move(mask)) {}

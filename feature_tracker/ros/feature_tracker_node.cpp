@@ -6,7 +6,8 @@
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "feature_tracker", [](const plm_vins::Config& config) {
-    plm_vins::PointTrackerNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
+    const auto node =
+        plm_vins::MakePointTrackerNode(config, ros::NodeHandle(), ros::NodeHandle("~"));
     plm_vins::Spin();
   });
 }

@@ -6,7 +6,7 @@
 #include "feature_tracker/ros/point_tracker_node.h"
 
 namespace plm_vins {
-using FeatureTrackerNodelet = NodeletOf<PointTrackerNode>;
+using FeatureTrackerNodelet = NodeletOf<&MakePointTrackerNode>;
 }  // namespace plm_vins
 
 PLUGINLIB_EXPORT_CLASS(plm_vins::FeatureTrackerNodelet, nodelet::Nodelet)

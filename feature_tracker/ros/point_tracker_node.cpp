@@ -9,26 +9,23 @@
 namespace plm_vins {
 namespace {
 
-// Traits of the point tracker for TrackerNode.
-struct PointNodeTraits {
-  using Stage = PointTrackingStage;
-
-  static constexpr char kFeatureTopic[] = "feature";
-  static constexpr char kAnnotatedTopic[] = "feature_img";
-  static constexpr char kDiagnostics[] = "point tracking";
-  static constexpr bool kEveryImage = false;
-  static constexpr bool kUsesDepth = true;
-
-  static std::string Finding(const PointTracker& tracker) {
-    const std::string still_parts = tracker.StillPartsFinding();
-    return still_parts.empty() ? tracker.PairFinding() : still_parts;
-  }
-};
+std::string ImageFinding(const PointTracker& tracker) {
+  const std::string still_parts = tracker.StillPartsFinding();
+  return still_parts.empty() ? tracker.PairFinding() : still_parts;
+}
 
 }  // namespace
 
-PointTrackerNode::PointTrackerNode(const Config& config, const ros::NodeHandle& node,
-                                   const ros::NodeHandle& private_node)
-    : node_(std::make_shared<TrackerNode<PointNodeTraits>>(config, node, private_node)) {}
+std::shared_ptr<void> MakePointTrackerNode(const Config& config, const ros::NodeHandle& node,
+                                           const ros::NodeHandle& private_node) {
+  TrackerTraits<PointTracker> traits;
+  traits.feature_topic = "feature";
+  traits.annotated_topic = "feature_img";
+  traits.status = "point tracking";
+  traits.every_image = false;
+  traits.uses_depth = true;
+  traits.finding = &ImageFinding;
+  return std::make_shared<TrackerNode<PointTrackingStage>>(config, node, private_node, traits);
+}
 
 }  // namespace plm_vins

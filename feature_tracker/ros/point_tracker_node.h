@@ -9,14 +9,8 @@
 
 namespace plm_vins {
 
-// TrackerNode of the point tracker, compiled once for node and nodelet.
-class PointTrackerNode {
- public:
-  PointTrackerNode(const Config& config, const ros::NodeHandle& node,
-                   const ros::NodeHandle& private_node);
-
- private:
-  std::shared_ptr<void> node_;
-};
+// Returns the TrackerNode of the point tracker.
+std::shared_ptr<void> MakePointTrackerNode(const Config& config, const ros::NodeHandle& node,
+                                           const ros::NodeHandle& private_node);
 
 }  // namespace plm_vins

@@ -12,6 +12,10 @@
 
 namespace plm_vins {
 
+// Returns the segment [px] of the CV_8UC1 image, reversed if necessary, such that the brighter side
+// is that of its normal. The segment may be off its edge by one pixel.
+LineSegment OrientByBrightness(const cv::Mat& image, const LineSegment& segment_px);
+
 // A detected line in normalized and pixel coordinates.
 struct FoundLine {
   LineSegment segment;  // normalized, undistorted

@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/geometry/symmetric_system.h"
-#include "linefeature_tracker/segments/line_offset.h"
 #include "linefeature_tracker/segments/line_profile.h"
+#include "linefeature_tracker/segments/line_segment.h"
 #include "linefeature_tracker/segments/segment_sampler.h"
 
 namespace plm_vins {

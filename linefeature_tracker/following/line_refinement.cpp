@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "common/geometry/robust_weight.h"
-#include "common/median.h"
-#include "linefeature_tracker/segments/line_offset.h"
+#include "common/statistics.h"
 #include "linefeature_tracker/segments/line_profile.h"
+#include "linefeature_tracker/segments/line_segment.h"
 #include "tracking/images/image_mask.h"
 
 namespace plm_vins {

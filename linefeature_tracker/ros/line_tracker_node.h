@@ -9,15 +9,8 @@
 
 namespace plm_vins {
 
-// TrackerNode of the line tracker, idle if the configuration disables lines, compiled once for node
-// and nodelet.
-class LineTrackerNode {
- public:
-  LineTrackerNode(const Config& config, const ros::NodeHandle& node,
-                  const ros::NodeHandle& private_node);
-
- private:
-  std::shared_ptr<void> node_;
-};
+// Returns the TrackerNode of the line tracker, or nullptr if the configuration disables lines.
+std::shared_ptr<void> MakeLineTrackerNode(const Config& config, const ros::NodeHandle& node,
+                                          const ros::NodeHandle& private_node);
 
 }  // namespace plm_vins

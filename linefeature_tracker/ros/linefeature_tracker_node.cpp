@@ -8,7 +8,8 @@
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "linefeature_tracker", [](const plm_vins::Config& config) {
-    plm_vins::LineTrackerNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
+    const auto node =
+        plm_vins::MakeLineTrackerNode(config, ros::NodeHandle(), ros::NodeHandle("~"));
     plm_vins::Spin();
   });
 }

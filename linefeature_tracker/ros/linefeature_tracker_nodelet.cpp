@@ -7,7 +7,7 @@
 #include "linefeature_tracker/ros/line_tracker_node.h"
 
 namespace plm_vins {
-using LineFeatureTrackerNodelet = NodeletOf<LineTrackerNode>;
+using LineFeatureTrackerNodelet = NodeletOf<&MakeLineTrackerNode>;
 }  // namespace plm_vins
 
 PLUGINLIB_EXPORT_CLASS(plm_vins::LineFeatureTrackerNodelet, nodelet::Nodelet)

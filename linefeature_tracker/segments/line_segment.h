@@ -65,4 +65,20 @@ inline SegmentRelation Relate(const LineSegment& a, const LineSegment& b) {
           std::abs(distance_from + middle * (distance_to - distance_from))};
 }
 
+// Signed distance of a line from a segment, positive on the side of its Normal() (normalized).
+struct LineOffset {
+  double at_start = 0;
+  double slope = 0;  // change along the segment
+
+  // `along` is measured from the segment's start.
+  double At(double along) const { return at_start + slope * along; }
+};
+
+// Returns the segment moved by the offset.
+inline LineSegment Shifted(const LineSegment& segment, const LineOffset& offset) {
+  const Eigen::Vector2d normal = segment.Normal();
+  return {segment.start + offset.at_start * normal,
+          segment.end + offset.At(segment.Length()) * normal};
+}
+
 }  // namespace plm_vins

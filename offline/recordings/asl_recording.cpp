@@ -10,7 +10,7 @@
 
 #include "common/append.h"
 #include "common/io/gray_image.h"
-#include "offline/recordings/sorted_rows.h"
+#include "offline/recordings/csv_reader.h"
 
 namespace plm_vins {
 namespace {

@@ -9,9 +9,8 @@
 #include "common/format.h"
 #include "common/stopwatch.h"
 #include "pose_graph/output/loop_table.h"
-#include "vins_estimator/output/covariance_table.h"
 #include "vins_estimator/output/placed_features.h"
-#include "vins_estimator/output/tum_format.h"
+#include "vins_estimator/output/pose_rows.h"
 
 namespace plm_vins {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/camera/camera_models.h"
+#include "common/camera/camera_model.h"
 #include "common/config/config.h"
 #include "common/io/output_file.h"
 #include "map_bundle/map_bundle.h"

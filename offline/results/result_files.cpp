@@ -13,8 +13,7 @@
 #include "offline/results/result_folder.h"
 #include "vins_estimator/output/calibrated_config.h"
 #include "vins_estimator/output/config_json.h"
-#include "vins_estimator/output/covariance_table.h"
-#include "vins_estimator/output/tum_format.h"
+#include "vins_estimator/output/pose_rows.h"
 
 namespace plm_vins {
 namespace {

@@ -20,7 +20,7 @@
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
-#include "common/ros/topic_names.h"
+#include "common/ros/names.h"
 
 namespace plm_vins {
 namespace {

@@ -12,7 +12,7 @@
 #include <queue>
 #include <utility>
 
-#include "pose_graph/geometry/level_fit.h"
+#include "pose_graph/geometry/level_transform.h"
 
 namespace plm_vins {
 namespace {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "common/geometry/rigid3.h"
@@ -43,5 +45,30 @@ struct Keyframe {
   // may have none: EuRoC's x axis points up.
   LevelTransform T_O_L() const { return {0, T_O_B.translation}; }
 };
+
+// Identifies an image of the map.
+struct MapImage {
+  int keyframe = -1;  // number
+  int camera = 0;
+
+  bool operator==(const MapImage& other) const {
+    return keyframe == other.keyframe && camera == other.camera;
+  }
+  bool operator<(const MapImage& other) const {
+    return std::tie(keyframe, camera) < std::tie(other.keyframe, other.camera);
+  }
+};
+
+// Returns the numbers of the keyframes at most `radius` before and after `number` in the same
+// world, including itself.
+inline std::vector<int> NumbersAround(const std::vector<Keyframe>& keyframes, int number,
+                                      int radius) {
+  std::vector<int> numbers;
+  const int end = std::min(number + radius + 1, static_cast<int>(keyframes.size()));
+  for (int i = std::max(0, number - radius); i < end; ++i) {
+    if (keyframes[i].world == keyframes[number].world) numbers.push_back(i);
+  }
+  return numbers;
+}
 
 }  // namespace plm_vins

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/camera/camera_models.h"
+#include "common/camera/camera_model.h"
 #include "pose_graph/description/corner_selection.h"
 #include "pose_graph/keyframes/keyframe.h"
 #include "pose_graph/keyframes/odometry_frame.h"

@@ -5,7 +5,6 @@
 
 #include "pose_graph/graph/pose_graph.h"
 #include "pose_graph/keyframes/keyframe.h"
-#include "pose_graph/keyframes/map_image.h"
 
 namespace plm_vins {
 

@@ -4,7 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "pose_graph/verification/seen_point.h"
+#include "pose_graph/verification/loop_observations.h"
 
 namespace plm_vins {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pose_graph/description/descriptor.h"
-#include "pose_graph/keyframes/map_image.h"
+#include "pose_graph/keyframes/keyframe.h"
 
 namespace plm_vins {
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "common/measurements.h"
-#include "pose_graph/keyframes/keyframe_neighbors.h"
+#include "pose_graph/keyframes/keyframe.h"
 
 namespace plm_vins {
 namespace {

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "pose_graph/keyframes/map_image.h"
+#include "pose_graph/keyframes/keyframe.h"
 
 namespace plm_vins {
 

@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "common/camera/camera_models.h"
+#include "common/camera/camera_model.h"
 #include "pose_graph/verification/loop_refinement.h"
 
 namespace plm_vins {

@@ -6,7 +6,7 @@
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "pose_graph", [](const plm_vins::Config& config) {
-    plm_vins::OptionalPoseGraphNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
-    if (node.is_on()) plm_vins::Spin();
+    const auto node = plm_vins::MakePoseGraphNode(config, ros::NodeHandle(), ros::NodeHandle("~"));
+    if (node) plm_vins::Spin();
   });
 }

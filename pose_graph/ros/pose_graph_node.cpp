@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "common/append.h"
-#include "common/ros/camera_names.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
+#include "common/ros/names.h"
 #include "common/ros/parameter.h"
 #include "common/ros/publish_if_wanted.h"
 #include "common/stopwatch.h"
@@ -386,6 +386,12 @@ void PoseGraphNode::ReportState(diagnostic_updater::DiagnosticStatusWrapper* sta
   } else {
     status->summary(DiagnosticStatus::WARN, "not located in the map yet");
   }
+}
+
+std::shared_ptr<void> MakePoseGraphNode(const Config& config, const ros::NodeHandle& node,
+                                        const ros::NodeHandle& private_node) {
+  if (!IsNeeded(config.pose_graph.loop_closure, "loop_closure", config)) return nullptr;
+  return std::make_shared<PoseGraphNode>(config, node, private_node);
 }
 
 }  // namespace plm_vins

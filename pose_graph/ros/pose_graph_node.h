@@ -27,7 +27,6 @@
 #include "common/ros/image_subscription.h"
 #include "common/ros/in_place_queue.h"
 #include "common/ros/node_setup.h"
-#include "common/ros/optional_node.h"
 #include "common/ros/publisher_watch.h"
 #include "common/ros/stream_monitor.h"
 #include "common/streams/bounded_queue.h"
@@ -164,11 +163,8 @@ class PoseGraphNode {
   ros::WallTimer diagnostics_timer_;
 };
 
-struct LoopClosureSwitch {
-  static constexpr char kKey[] = "loop_closure";
-  static bool IsOn(const Config& config) { return config.pose_graph.loop_closure; }
-};
-
-using OptionalPoseGraphNode = OptionalNode<PoseGraphNode, LoopClosureSwitch>;
+// Returns a PoseGraphNode, or nullptr if the configuration disables loop closure.
+std::shared_ptr<void> MakePoseGraphNode(const Config& config, const ros::NodeHandle& node,
+                                        const ros::NodeHandle& private_node);
 
 }  // namespace plm_vins

@@ -7,7 +7,7 @@
 #include "pose_graph/ros/pose_graph_node.h"
 
 namespace plm_vins {
-using PoseGraphNodelet = NodeletOf<OptionalPoseGraphNode>;
+using PoseGraphNodelet = NodeletOf<&MakePoseGraphNode>;
 }  // namespace plm_vins
 
 PLUGINLIB_EXPORT_CLASS(plm_vins::PoseGraphNodelet, nodelet::Nodelet)

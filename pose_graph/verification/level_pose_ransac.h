@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pose_graph/geometry/level_transform.h"
-#include "pose_graph/verification/seen_point.h"
+#include "pose_graph/verification/loop_observations.h"
 
 namespace plm_vins {
 

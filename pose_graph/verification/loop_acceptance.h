@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "pose_graph/geometry/drift_budget.h"
 #include "pose_graph/graph/pose_graph.h"
 #include "pose_graph/keyframes/keyframe.h"
+#include "pose_graph/keyframes/odometry_noise.h"
 #include "pose_graph/verification/loop_candidate.h"
 
 namespace plm_vins {

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "pose_graph/verification/seen_point.h"
+#include "pose_graph/verification/loop_observations.h"
 
 namespace plm_vins {
 namespace {

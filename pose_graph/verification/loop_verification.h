@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/camera/camera_models.h"
+#include "common/camera/camera_model.h"
 #include "pose_graph/keyframes/keyframe.h"
 #include "pose_graph/verification/landmark_matching.h"
 #include "pose_graph/verification/level_pose_ransac.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <stdexcept>
 
-#include "simulator/recording/bag_recorder.h"
+#include "simulator/recording/recorder.h"
 
 namespace plm_vins::simulator {
 

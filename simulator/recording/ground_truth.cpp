@@ -3,7 +3,7 @@
 
 #include "common/io/output_file.h"
 #include "simulator/recording/csv_row.h"
-#include "vins_estimator/output/tum_format.h"
+#include "vins_estimator/output/pose_rows.h"
 
 namespace plm_vins::simulator {
 

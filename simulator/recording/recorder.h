@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <opencv2/core.hpp>
+#include <string>
 
+#include "common/config/config.h"
 #include "common/measurements.h"
 
 namespace plm_vins::simulator {
@@ -19,5 +22,9 @@ class Recorder {
   // Flushes all files; must be the last call.
   virtual void Finish() = 0;
 };
+
+// Creates a ROS bag with the topics of the configuration. Throws std::runtime_error if the file
+// cannot be written or the program was built without ROS.
+std::unique_ptr<Recorder> MakeBagRecorder(const std::string& file, const SensorConfig& sensors);
 
 }  // namespace plm_vins::simulator

@@ -17,9 +17,9 @@
 #include "common/io/command_line.h"
 #include "common/io/progress_display.h"
 #include "simulator/recording/asl_recorder.h"
-#include "simulator/recording/bag_recorder.h"
 #include "simulator/recording/flight.h"
 #include "simulator/recording/ground_truth.h"
+#include "simulator/recording/recorder.h"
 
 namespace plm_vins::simulator {
 namespace {

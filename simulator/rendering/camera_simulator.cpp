@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "common/camera/readout_share.h"
+#include "common/camera/camera_model.h"
 #include "simulator/random.h"
 
 namespace plm_vins::simulator {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulator/recording/bag_recorder.h"
+#include "simulator/recording/recorder.h"
 
 #include <cv_bridge/cv_bridge.h>
 #include <rosbag/bag.h>
@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "common/ros/geometry_conversion.h"
-#include "common/ros/topic_names.h"
+#include "common/ros/names.h"
 
 namespace plm_vins::simulator {
 namespace {

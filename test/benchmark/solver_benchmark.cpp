@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "common/config/config.h"
-#include "common/median.h"
 #include "common/process_setup.h"
+#include "common/statistics.h"
 #include "offline/pipeline/feature_trackers.h"
 #include "offline/recordings/asl_recording.h"
 #include "vins_estimator/estimator.h"

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "common/camera/camera_model.h"
-#include "common/camera/readout_share.h"
 #include "simulator/random.h"
 #include "test/feature_simulator/track_selector.h"
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace plm_vins {
 namespace {
 
@@ -12,12 +14,17 @@ LoopCandidate RefusedBy(LoopGate gate) {
   return loop;
 }
 
+LoopTally TallyOf(const std::vector<LoopClosure>& closures) {
+  LoopTally tally;
+  for (const LoopClosure& closure : closures) tally.Add(closure);
+  return tally;
+}
+
 TEST(LoopTallyTest, CountsEachVerdict) {
   LoopClosure closure;
   closure.candidates = {RefusedBy(LoopGate::kScore), LoopCandidate(), RefusedBy(LoopGate::kScore)};
   closure.dropped = {LevelEdge()};
-  LoopTally tally;
-  tally.Add(closure);
+  LoopTally tally = TallyOf({closure});
   EXPECT_EQ(tally.candidates, 3);
   EXPECT_EQ(tally.accepted, 1);
   EXPECT_EQ(tally.dropped, 1);
@@ -26,41 +33,32 @@ TEST(LoopTallyTest, CountsEachVerdict) {
 }
 
 TEST(LoopTallyTest, CountsADelayedLoopOnce) {
-  LoopClosure first;
+  LoopClosure first, second;
   first.candidates = {RefusedBy(LoopGate::kAgreement), RefusedBy(LoopGate::kAgreement)};
-  LoopClosure second;
   second.candidates = {LoopCandidate()};
   second.confirmed = {LoopCandidate()};  // one of the first closure
-  LoopTally tally;
-  tally.Add(first);
-  tally.Add(second);
+  LoopTally tally = TallyOf({first, second});
   EXPECT_EQ(tally.candidates, 3);
   EXPECT_EQ(tally.accepted, 2);
   EXPECT_EQ(tally.refused[LoopGate::kAgreement], 1);
 }
 
 TEST(LoopTallyTest, CountsALoopThatTheGraphRejectsUnderItsLastGate) {
-  LoopClosure first;
+  LoopClosure first, second;
   first.candidates = {RefusedBy(LoopGate::kAgreement)};
-  LoopClosure second;
   second.confirmed = {RefusedBy(LoopGate::kGraph)};
-  LoopTally tally;
-  tally.Add(first);
-  tally.Add(second);
+  LoopTally tally = TallyOf({first, second});
   EXPECT_EQ(tally.accepted, 0);
   EXPECT_EQ(tally.refused[LoopGate::kAgreement], 0);
   EXPECT_EQ(tally.refused[LoopGate::kGraph], 1);
 }
 
 TEST(LoopTallyTest, CountsALoopThatTheGraphAcceptsLaterOnce) {
-  LoopClosure first;
+  LoopClosure first, second;
   first.candidates = {RefusedBy(LoopGate::kGraph), RefusedBy(LoopGate::kGraph)};
-  LoopClosure second;
   second.candidates = {RefusedBy(LoopGate::kGraph)};
   second.reconsidered = {LoopCandidate(), LoopCandidate()};  // the newest, one of the first
-  LoopTally tally;
-  tally.Add(first);
-  tally.Add(second);
+  LoopTally tally = TallyOf({first, second});
   EXPECT_EQ(tally.candidates, 3);
   EXPECT_EQ(tally.accepted, 2);
   EXPECT_EQ(tally.refused[LoopGate::kAgreement], 0);

@@ -195,19 +195,6 @@ TEST_F(ImageQueueTest, AnImageAloneInTheFutureIsDropped) {
   EXPECT_EQ(queue_.counts().restarts + queue_.counts().out_of_order, 0);
 }
 
-TEST_F(ImageQueueTest, AnImuSampleAloneInTheFutureLeavesTheGyroAtWork) {
-  AddImu(-10, 50);
-  AddImu(1'000'000, 1'000'000);
-  AddImu(55, 100);
-  AddImage(0);
-  AddImage(50);
-  EXPECT_EQ(Pop().size(), 2u);
-  EXPECT_TRUE(last_.R_now_then);
-  AddImage(100);
-  EXPECT_EQ(Pop().size(), 1u);
-  EXPECT_TRUE(last_.R_now_then);
-}
-
 TEST(ImageQueue, MarksImagesAtTheRateAndDeliversAll) {
   Config config = StillConfig();
   config.publish_rate = 10;

@@ -9,6 +9,7 @@
 #include <sensor_msgs/PointCloud.h>
 #include <std_msgs/Bool.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -19,11 +20,11 @@
 #include "common/append.h"
 #include "common/config/config.h"
 #include "common/finding.h"
-#include "common/ros/camera_names.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/image_subscription.h"
 #include "common/ros/msg_conversion.h"
+#include "common/ros/names.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/silent_topic.h"
 #include "common/ros/stream_monitor.h"
@@ -34,38 +35,47 @@
 
 namespace plm_vins {
 
+// The differences between the nodes of the trackers.
+template <typename Tracker>
+struct TrackerTraits {
+  const char* feature_topic;
+  const char* annotated_topic;
+  const char* status;  // name of the diagnostics
+  bool every_image;    // features of all images are published, not only those at the rate `freq`
+  bool uses_depth;
+  // Describes what seems to be wrong with the images.
+  std::function<std::string(const Tracker&)> finding;
+};
+
 // A tracker under ROS, as a node or nodelet. Subscribes to images and the IMU (optional); publishes
 // features, an annotated image and ~restart. All callbacks run in the queue of the two node
 // handles, one at a time. Images that arrive while one is tracked are taken before the next one is
 // tracked, so that a stall of the transport loses none; images that are older than kMaxWait are
-// dropped then.
-//
-// `Traits` defines what differs between trackers: the type Stage (a TrackingStage), the
-// private topics kFeatureTopic and kAnnotatedTopic, the diagnostic status kDiagnostics, kEveryImage
-// (features of all images are published instead of those at the rate `freq`), kUsesDepth (depth
-// images are used), and Finding(tracker), which describes what seems to be wrong with the images.
-template <typename Traits>
+// dropped then. `Stage` is a TrackingStage.
+template <typename Stage>
 class TrackerNode {
  public:
   TrackerNode(const Config& config, const ros::NodeHandle& node,
-              const ros::NodeHandle& private_node)
+              const ros::NodeHandle& private_node,
+              const TrackerTraits<typename Stage::Tracker>& traits)
       : node_(node),
         private_node_(private_node),
         config_(config),
+        traits_(traits),
         stage_(config, kMaxWait),
         schedule_(config.publish_rate),
         diagnostics_(node, private_node, private_node.getNamespace()) {
     feature_publisher_ =
-        private_node_.advertise<sensor_msgs::PointCloud>(Traits::kFeatureTopic, kOutputQueue);
+        private_node_.advertise<sensor_msgs::PointCloud>(traits.feature_topic, kOutputQueue);
     restart_publisher_ = private_node_.advertise<std_msgs::Bool>("restart", 10);
     for (const int camera : stage_.tracked_cameras()) {
       annotated_publishers_.push_back(
-          private_transport_.advertise(NameOfCamera(Traits::kAnnotatedTopic, camera), 10));
+          private_transport_.advertise(NameOfCamera(traits.annotated_topic, camera), 10));
     }
     flush_timer_ = node_.createWallTimer(ros::WallDuration(0.1 * kMaxWaitForImu),
                                          [this](const ros::WallTimerEvent&) { FlushLateImages(); });
     diagnostics_.setHardwareID("none");
-    diagnostics_.add(Traits::kDiagnostics, this, &TrackerNode::ReportStatus);
+    diagnostics_.add(traits.status, this, &TrackerNode::ReportStatus);
     diagnostics_timer_ =
         node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
           LogSilence();
@@ -77,8 +87,6 @@ class TrackerNode {
   }
 
  private:
-  using Stage = typename Traits::Stage;
-
   static constexpr uint32_t kOutputQueue = 200;
   // Images that arrive while one is tracked; more than those of kMaxWait.
   static constexpr uint32_t kImageQueue = 100;
@@ -100,7 +108,7 @@ class TrackerNode {
           node_, private_node_, sensor.cameras[camera].image_topic, kImageQueue, add,
           [this, camera](int64_t t_ns) { return schedule_.IsNeeded(camera, t_ns); });
     }
-    if (sensor.depth && Traits::kUsesDepth) {
+    if (sensor.depth && traits_.uses_depth) {
       depth_subscriber_ = node_.subscribe<sensor_msgs::Image>(
           sensor.depth->topic, kImageQueue,
           [this](const sensor_msgs::ImageConstPtr& message) { AddDepth(message); });
@@ -185,8 +193,8 @@ class TrackerNode {
     features_in_last_image_ = message.points.size();
     last_tracked_ = ros::WallTime::now();
     tracking_ms_ = frame.tracking_ms;
-    image_faults_.Set(frame.features.t_ns, stage_.Finding(&Traits::Finding));
-    if (!frame.publish && !Traits::kEveryImage) return;
+    image_faults_.Set(frame.features.t_ns, stage_.Finding(traits_.finding));
+    if (!frame.publish && !traits_.every_image) return;
     feature_publisher_.publish(message);
     feature_stream_.Add(frame.features.t_ns);
     for (size_t i = 0; config_.show_track && i < annotated_publishers_.size(); ++i) {
@@ -252,6 +260,7 @@ class TrackerNode {
   image_transport::ImageTransport private_transport_{private_node_};
 
   const Config config_;
+  const TrackerTraits<typename Stage::Tracker> traits_;
   Stage stage_;
   ImageSchedule schedule_;
   DropWarner drop_warner_;

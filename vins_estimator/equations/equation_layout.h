@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "vins_estimator/equations/column_runs.h"
+#include "vins_estimator/equations/gram.h"
 #include "vins_estimator/equations/window_problem.h"
 
 namespace plm_vins {

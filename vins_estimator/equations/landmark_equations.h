@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "vins_estimator/equations/column_runs.h"
+#include "vins_estimator/equations/gram.h"
 
 namespace plm_vins {
 

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "vins_estimator/factors/pose_block.h"
+#include "vins_estimator/factors/manifolds.h"
 
 namespace plm_vins {
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/factors/line_factor.h"
 
-#include "vins_estimator/factors/line_chain.h"
-
 namespace plm_vins {
 
 bool LineFactor::EvaluateWithNormal(double const* const* parameters, double* residuals,

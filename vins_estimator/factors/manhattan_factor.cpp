@@ -5,7 +5,7 @@
 
 #include "common/geometry/so3.h"
 #include "common/geometry/tangent_basis.h"
-#include "vins_estimator/factors/pose_block.h"
+#include "vins_estimator/factors/manifolds.h"
 
 namespace plm_vins {
 namespace {

@@ -10,6 +10,9 @@
 // holds for lines (5 -> 4).
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
 namespace plm_vins {
 
 constexpr int kPoseSize = 7;
@@ -20,5 +23,28 @@ void PosePlus(const double* x, const double* delta, double* x_plus_delta);
 
 // Computes delta such that y = x [+] delta; its rotation angle is at most pi.
 void PoseMinus(const double* y, const double* x, double* y_minus_x);
+
+// Access of the visual factors to poses (factors/manifolds.h) and to their Jacobians.
+
+// A pose variable with its rotation as a matrix.
+struct PoseBlock {
+  PoseBlock() = default;
+  explicit PoseBlock(const double* values)
+      : p(Eigen::Map<const Eigen::Vector3d>(values)),
+        R(Eigen::Map<const Eigen::Quaterniond>(values + 3).toRotationMatrix()) {}
+
+  Eigen::Vector3d p;
+  Eigen::Matrix3d R;
+};
+
+// Writes the tangent Jacobian of a residual with kRows rows, padded with a column of zeros.
+template <int kRows>
+void SetPoseJacobian(const Eigen::Matrix<double, kRows, 3>& d_r_d_p,
+                     const Eigen::Matrix<double, kRows, 3>& d_r_d_theta, double* values) {
+  Eigen::Map<Eigen::Matrix<double, kRows, kPoseSize, Eigen::RowMajor>> J(values);
+  J.template leftCols<3>() = d_r_d_p;
+  J.template middleCols<3>(3) = d_r_d_theta;
+  J.col(6).setZero();
+}
 
 }  // namespace plm_vins

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "vins_estimator/failure/blindness_monitor.h"
 #include "vins_estimator/failure/failure_detector.h"
 #include "vins_estimator/state/estimate_counts.h"
 #include "vins_estimator/state/frame_state.h"

@@ -6,6 +6,7 @@
 
 #include "common/format.h"
 #include "common/measurements.h"
+#include "vins_estimator/state/derived_covariance.h"
 
 namespace plm_vins {
 namespace {
@@ -15,6 +16,10 @@ constexpr int kMinRejected = 5;             // at first; outlier rejection leave
 constexpr double kMaxContradiction = 0.5;   // [s]
 // Limits the contribution of one image, because a gap between images is no contradiction.
 const int64_t kMaxInterval_ns = ToNanoseconds(kMaxContradiction / 2);
+
+// Standard deviation that the pose may gain while blind [m]: even with an error of three sigma, it
+// is good enough for a vehicle to stop.
+constexpr double kMaxDeviation = 0.5;
 
 bool IsFinite(const FrameState& state) {
   const auto finite = [](double value) { return std::isfinite(value); };
@@ -67,6 +72,24 @@ std::optional<std::string> ContradictionMonitor::Add(int64_t t_ns, int landmarks
   if (seconds < kMaxContradiction) return std::nullopt;
   return Format("the camera contradicts the state: %d of %d landmarks rejected, for %.1f s",
                 rejected, landmarks, seconds);
+}
+
+std::optional<std::string> BlindnessMonitor::Add(
+    int features_seen, bool is_held, const FrameState& state,
+    const std::optional<Eigen::Matrix<double, 6, 6>>& covariance) {
+  blind_ = features_seen < kFewFeatures;
+  if (!covariance) return std::nullopt;
+  const Hold now{state.t_ns, state.position(), covariance->topLeftCorner<3, 3>().trace()};
+  if (!hold_) hold_ = now;
+  const double variance = PositionVarianceFrom(hold_->p_W, state, *covariance);
+  const double added = std::sqrt(std::max(0.0, variance - hold_->variance));
+  if (added <= kMaxDeviation) {
+    if (is_held) hold_ = now;
+    return std::nullopt;
+  }
+  return Format(
+      "no feature has constrained the position for %.1f s; its standard deviation grew by %.2f m",
+      ToSeconds(state.t_ns - hold_->t_ns), added);
 }
 
 }  // namespace plm_vins

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "vins_estimator/state/line_axis.h"
+#include "vins_estimator/state/map_elements.h"
 
 namespace plm_vins {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <deque>
 
-#include "common/forgetting_sum.h"
 #include "common/imu/imu_noise.h"
 #include "common/measurements.h"
+#include "common/statistics.h"
 
 namespace plm_vins {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/imu/imu_propagator.h"
 
-#include "common/imu/imu_interpolation.h"
+#include "common/imu/imu_samples.h"
 #include "vins_estimator/imu/preintegration.h"
 
 namespace plm_vins {

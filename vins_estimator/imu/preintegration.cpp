@@ -8,7 +8,7 @@
 
 #include "common/geometry/small_cholesky.h"
 #include "common/geometry/so3.h"
-#include "common/imu/imu_gap.h"
+#include "common/imu/imu_samples.h"
 
 namespace plm_vins {
 namespace {

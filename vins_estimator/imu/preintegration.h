@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "common/imu/imu_gap.h"
 #include "common/imu/imu_noise.h"
+#include "common/imu/imu_samples.h"
 #include "common/measurements.h"
 #include "vins_estimator/state/frame_state.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/features/common_points.h"
-#include "common/median.h"
+#include "common/statistics.h"
 
 namespace plm_vins {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "common/config/stereo_pairs.h"
 #include "common/format.h"
-#include "common/imu/imu_gap.h"
+#include "common/imu/imu_samples.h"
 #include "vins_estimator/initialization/motion_initializer.h"
 #include "vins_estimator/initialization/static_initializer.h"
 #include "vins_estimator/structure_from_motion/frame_selection.h"

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "common/imu/imu_gap.h"
-#include "common/imu/imu_interpolation.h"
+#include "common/imu/imu_samples.h"
 
 namespace plm_vins {
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "common/camera/readout_share.h"
+#include "common/camera/camera_model.h"
 #include "common/features/feature_checks.h"
 #include "vins_estimator/input/track_velocities.h"
 

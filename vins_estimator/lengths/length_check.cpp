@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "common/camera/camera_model.h"
-#include "common/imu/imu_gap.h"
 #include "common/imu/imu_noise.h"
+#include "common/imu/imu_samples.h"
 #include "vins_estimator/initialization/visual_inertial_alignment.h"
 #include "vins_estimator/lengths/length_likelihood.h"
 #include "vins_estimator/structure_from_motion/frame_selection.h"

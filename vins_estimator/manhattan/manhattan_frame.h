@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "vins_estimator/manhattan/heading_votes.h"
-#include "vins_estimator/state/line_axis.h"
+#include "vins_estimator/state/map_elements.h"
 
 namespace plm_vins {
 

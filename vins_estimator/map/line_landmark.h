@@ -10,7 +10,7 @@
 #include "vins_estimator/geometry/plucker.h"
 #include "vins_estimator/geometry/segment_end_points.h"
 #include "vins_estimator/map/image_key.h"
-#include "vins_estimator/state/line_axis.h"
+#include "vins_estimator/state/map_elements.h"
 
 namespace plm_vins {
 

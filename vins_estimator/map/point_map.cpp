@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "common/median.h"
+#include "common/statistics.h"
 #include "vins_estimator/geometry/depth_limits.h"
 #include "vins_estimator/geometry/point_triangulation.h"
 

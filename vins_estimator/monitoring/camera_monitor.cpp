@@ -5,9 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "common/forgetting_sum.h"
 #include "common/measurements.h"
-#include "common/median.h"
+#include "common/statistics.h"
 
 namespace plm_vins {
 namespace {

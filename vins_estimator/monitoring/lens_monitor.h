@@ -9,7 +9,7 @@
 
 #include "common/camera/camera_model.h"
 #include "vins_estimator/map/pixel_residuals.h"
-#include "vins_estimator/state/residual_ring.h"
+#include "vins_estimator/state/estimator_output.h"
 
 namespace plm_vins {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "common/forgetting_sum.h"
+#include "common/statistics.h"
 
 namespace plm_vins {
 namespace {

@@ -11,7 +11,6 @@
 #include "vins_estimator/output/json.h"
 #include "vins_estimator/output/series_summary.h"
 #include "vins_estimator/state/estimator_output.h"
-#include "vins_estimator/state/residual_ring.h"
 
 namespace plm_vins {
 

@@ -2,12 +2,13 @@
 #include "vins_estimator/problem/observation_terms.h"
 
 #include "vins_estimator/equations/chain_variables.h"
-#include "vins_estimator/factors/depth_factor.h"
 #include "vins_estimator/factors/intrinsics_factor.h"
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/geometry/depth_limits.h"
 #include "vins_estimator/map/landmark_map.h"
-#include "vins_estimator/problem/expected_rays.h"
+#include "vins_estimator/map/line_map.h"
+#include "vins_estimator/map/point_map.h"
 
 namespace plm_vins {
 namespace {
@@ -142,6 +143,26 @@ void ObservationTerms::AddTerm(std::optional<int> eliminated, const FactorType& 
   } else {
     problem_->AddTerm(factor, loss, variables);
   }
+}
+
+Eigen::Vector2d ExpectedRay(const PointLandmark& landmark,
+                            const PointLandmark::Observation& observation,
+                            const SlidingWindow& window) {
+  const Eigen::Vector3d p_C =
+      window.T_W_C(observation).Inverse() * PositionInWorld(landmark, window);
+  return p_C.z() > kMinProjectedDepth ? Eigen::Vector2d(p_C.hnormalized()) : observation.bearing.xy;
+}
+
+SegmentEndPoints ExpectedEnds(const LineLandmark& landmark,
+                              const LineLandmark::Observation& observation,
+                              const SlidingWindow& window) {
+  const SegmentEndPoints& observed = observation.segment;
+  const Eigen::Vector3d moment =
+      (window.T_W_C(observation).Inverse() * LineInWorld(landmark, window)).moment;
+  Eigen::Vector2d distances;
+  if (!EndPointDistances(observed, moment, &distances, nullptr)) return observed;
+  const Eigen::Vector2d normal = moment.head<2>().normalized();
+  return {observed.start - distances[0] * normal, observed.end - distances[1] * normal};
 }
 
 }  // namespace plm_vins

@@ -3,6 +3,7 @@
 
 #include <ceres/loss_function.h>
 
+#include <Eigen/Core>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -76,5 +77,20 @@ class ObservationTerms {
   ceres::CauchyLoss line_loss_;
   ceres::CauchyLoss depth_loss_;
 };
+
+// Expected observations of landmarks in the state of the window are the linearization points for
+// the intrinsics. Derivatives at the observed rays would be correlated with the noise of the
+// residuals and would bias the focal length to be too short.
+
+// Returns the predicted ray; the observed one if the landmark is behind the camera.
+Eigen::Vector2d ExpectedRay(const PointLandmark& landmark,
+                            const PointLandmark::Observation& observation,
+                            const SlidingWindow& window);
+
+// Returns the points of the projected line nearest to the observed end points; these themselves if
+// the line has no projection.
+SegmentEndPoints ExpectedEnds(const LineLandmark& landmark,
+                              const LineLandmark::Observation& observation,
+                              const SlidingWindow& window);
 
 }  // namespace plm_vins

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/problem/problem_builder.h"
 
-#include "vins_estimator/factors/extrinsics_prior.h"
 #include "vins_estimator/factors/manhattan_factor.h"
+#include "vins_estimator/factors/priors.h"
 
 namespace plm_vins {
 namespace {

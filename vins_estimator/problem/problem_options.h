@@ -7,7 +7,7 @@
 
 #include "common/camera/camera_model.h"
 #include "common/config/config.h"
-#include "vins_estimator/factors/extrinsics_prior.h"
+#include "vins_estimator/factors/priors.h"
 
 namespace plm_vins {
 

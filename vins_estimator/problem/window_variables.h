@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "vins_estimator/equations/block_id.h"
 #include "vins_estimator/equations/marginalization_prior.h"
+#include "vins_estimator/equations/variable.h"
 #include "vins_estimator/equations/window_problem.h"
 #include "vins_estimator/map/sliding_window.h"
 

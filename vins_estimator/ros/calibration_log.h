@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/config/config.h"
-#include "vins_estimator/state/calibration.h"
+#include "vins_estimator/state/estimator_output.h"
 
 namespace plm_vins {
 

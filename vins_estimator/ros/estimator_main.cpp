@@ -6,7 +6,7 @@
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "vins_estimator", [](const plm_vins::Config& config) {
-    plm_vins::EstimatorNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
+    const auto node = plm_vins::MakeEstimatorNode(config, ros::NodeHandle(), ros::NodeHandle("~"));
     plm_vins::Spin();
   });
 }

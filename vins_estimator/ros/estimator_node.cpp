@@ -346,4 +346,9 @@ void EstimatorNode::LogLines() {
   }
 }
 
+std::shared_ptr<void> MakeEstimatorNode(const Config& config, const ros::NodeHandle& node,
+                                        const ros::NodeHandle& private_node) {
+  return std::make_shared<EstimatorNode>(config, node, private_node);
+}
+
 }  // namespace plm_vins

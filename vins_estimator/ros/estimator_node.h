@@ -12,6 +12,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
@@ -133,5 +134,8 @@ class EstimatorNode {
   ros::WallTimer diagnostics_timer_;
   std::thread worker_;
 };
+
+std::shared_ptr<void> MakeEstimatorNode(const Config& config, const ros::NodeHandle& node,
+                                        const ros::NodeHandle& private_node);
 
 }  // namespace plm_vins

@@ -6,7 +6,7 @@
 #include "vins_estimator/ros/estimator_node.h"
 
 namespace plm_vins {
-using VinsEstimatorNodelet = NodeletOf<EstimatorNode>;
+using VinsEstimatorNodelet = NodeletOf<&MakeEstimatorNode>;
 }  // namespace plm_vins
 
 PLUGINLIB_EXPORT_CLASS(plm_vins::VinsEstimatorNodelet, nodelet::Nodelet)

@@ -8,9 +8,9 @@
 
 #include "common/append.h"
 #include "common/ros/camera_info_conversion.h"
-#include "common/ros/camera_names.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/keyframe_conversion.h"
+#include "common/ros/names.h"
 #include "common/ros/publish_if_wanted.h"
 #include "vins_estimator/output/placed_features.h"
 #include "vins_estimator/ros/output_conversion.h"

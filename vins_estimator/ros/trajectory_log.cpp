@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "common/io/output_file.h"
-#include "vins_estimator/output/tum_format.h"
+#include "vins_estimator/output/pose_rows.h"
 
 namespace plm_vins {
 namespace {

@@ -6,8 +6,8 @@
 #include "common/camera/camera_model.h"
 #include "common/format.h"
 #include "common/geometry/so3.h"
-#include "common/imu/imu_gap.h"
-#include "vins_estimator/rotation_calibration/focal_fit.h"
+#include "common/imu/imu_samples.h"
+#include "vins_estimator/rotation_calibration/gross_errors.h"
 #include "vins_estimator/rotation_calibration/rotation_pair.h"
 
 namespace plm_vins {

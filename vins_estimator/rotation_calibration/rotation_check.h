@@ -10,7 +10,7 @@
 #include "common/config/sensor_config.h"
 #include "common/finding.h"
 #include "common/measurements.h"
-#include "vins_estimator/rotation_calibration/mounting.h"
+#include "vins_estimator/rotation_calibration/gross_errors.h"
 #include "vins_estimator/rotation_calibration/rotation_fit.h"
 #include "vins_estimator/rotation_calibration/stamp_lag.h"
 

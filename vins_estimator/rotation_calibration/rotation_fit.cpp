@@ -9,7 +9,7 @@
 
 #include "common/geometry/robust_weight.h"
 #include "common/geometry/so3.h"
-#include "common/median.h"
+#include "common/statistics.h"
 
 namespace plm_vins {
 namespace {

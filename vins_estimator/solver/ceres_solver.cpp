@@ -9,9 +9,7 @@
 #include <vector>
 
 #include "vins_estimator/equations/term_evaluation.h"
-#include "vins_estimator/solver/ceres_manifold.h"
-#include "vins_estimator/solver/factor_cost.h"
-#include "vins_estimator/solver/prior_cost.h"
+#include "vins_estimator/solver/ceres_adapters.h"
 
 namespace plm_vins {
 namespace {

@@ -7,13 +7,34 @@
 #include <string>
 #include <vector>
 
+#include "common/camera/camera_model.h"
+#include "common/geometry/rigid3.h"
 #include "common/imu/imu_noise.h"
-#include "vins_estimator/state/calibration.h"
 #include "vins_estimator/state/estimate_counts.h"
 #include "vins_estimator/state/frame_state.h"
 #include "vins_estimator/state/map_elements.h"
 
 namespace plm_vins {
+
+// Intrinsics and extrinsics of a camera.
+struct CameraCalibration {
+  CameraParameters parameters;
+  Rigid3d T_B_C;
+};
+
+// Calibration that the estimator may refine: cameras by number, at least one, and time offset.
+struct Calibration {
+  std::vector<CameraCalibration> cameras{CameraCalibration()};
+  double td = 0;  // t_imu = t_image + td [s]
+};
+
+// Statistics of the residuals of points in a ring of the image around the principal point.
+struct ResidualRing {
+  double inner_px = 0, outer_px = 0;  // radii
+  int64_t count = 0;                  // number of residuals
+  double radial_px = 0;               // median of the radial components, positive outwards
+  double deviation_px = 0;            // standard deviation of these, from the quartiles
+};
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 

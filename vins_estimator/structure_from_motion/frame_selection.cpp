@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/features/common_points.h"
-#include "common/median.h"
+#include "common/statistics.h"
 
 namespace plm_vins {
 namespace {

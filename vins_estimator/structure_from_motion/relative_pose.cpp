@@ -11,8 +11,8 @@
 #include "common/geometry/so3.h"
 #include "common/geometry/symmetric_system.h"
 #include "common/geometry/tangent_basis.h"
-#include "common/median.h"
 #include "common/opencv_version.h"
+#include "common/statistics.h"
 
 namespace plm_vins {
 namespace {

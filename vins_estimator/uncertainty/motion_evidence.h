@@ -7,7 +7,7 @@
 #include "vins_estimator/equations/normal_equations.h"
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/state/frame_state.h"
-#include "vins_estimator/uncertainty/imu_noise_evidence.h"
+#include "vins_estimator/uncertainty/imu_noise_estimate.h"
 
 namespace plm_vins {
 

@@ -51,13 +51,14 @@ TEST_F(ImuDoorTest, AdmitsUsableSamplesInOrder) {
   bad.accel.z() = std::numeric_limits<double>::infinity();
   Add(bad);
   Add({16 * kMs, {0, 0, 0}, {0, 0, 0}});
+  Add({17 * kMs, {0, 0, 0}, {1e6, 0, 9.81}});
   Add({kEndOfTime_ns, {0, 0, 0}, {0, 9.81, 0}});
   Add(Reading(10));
   Add(Reading(5));
   Add(20, 25);
   EXPECT_EQ(Milliseconds(), (Stamps{0, 5, 10, 20, 25}));
   EXPECT_EQ(door_.statistics().imu_not_finite, 1);
-  EXPECT_EQ(door_.statistics().imu_implausible, 2);
+  EXPECT_EQ(door_.statistics().imu_implausible, 3);
   EXPECT_EQ(door_.statistics().imu_out_of_order, 2);
 }
 

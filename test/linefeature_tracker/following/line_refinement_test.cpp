@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "linefeature_tracker/detection/line_orientation.h"
+#include "linefeature_tracker/detection/line_finder.h"
 #include "test/linefeature_tracker/bar_scene.h"
 
 namespace plm_vins {

@@ -51,6 +51,14 @@ PipelineFrame MakeFrame(int64_t t_ns, bool has_pose) {
   return frame;
 }
 
+// Writes the results of these frames.
+void WriteResults(const testing::TemporaryFolder& folder,
+                  const std::vector<PipelineFrame>& frames) {
+  ResultFiles results(folder.path());
+  for (const PipelineFrame& frame : frames) results.Add(frame);
+  results.Finish(RunSummary::Run(), Config(), Json());
+}
+
 TEST(ResultFiles, ATrackImageHasPointsAndLinesSideBySide) {
   const testing::TemporaryFolder folder;
   const cv::Mat blue(40, 60, CV_8UC3, cv::Scalar(255, 0, 0));
@@ -185,14 +193,10 @@ TEST(ResultFiles, HoldTheRefinedCalibration) {
 
 TEST(ResultFiles, MarkANewWorldFrameBetweenRows) {
   const testing::TemporaryFolder folder;
-  ResultFiles results(folder.path());
-  results.Add(MakeFrame(1'000'000'000, true));
   PipelineFrame restart = MakeFrame(2'000'000'000, false);
   restart.output.restarted = true;
   restart.output.reason = "it flew away";
-  results.Add(restart);
-  results.Add(MakeFrame(3'000'000'000, true));
-  results.Finish(RunSummary::Run(), Config(), Json());
+  WriteResults(folder, {MakeFrame(1'000'000'000, true), restart, MakeFrame(3'000'000'000, true)});
   EXPECT_THAT(folder.Read("trajectory.tum"),
               HasSubstr("\n# the world frame starts anew: it flew away\n3.000000000 "));
 }
@@ -231,15 +235,10 @@ PipelineFrame FrameThatLosesTwoLines() {
 
 TEST(ResultFiles, HoldARecognizedLineOnce) {
   const testing::TemporaryFolder folder;
-  ResultFiles results(folder.path());
-  results.Add(FrameThatLosesTwoLines());
-  PipelineFrame frame = MakeFrame(2'000'000'000, true);
-  frame.output.departed_lines = {{7, {3, 0, 0}, {3, 0, 1}}};
-  results.Add(frame);
-  frame = MakeFrame(3'000'000'000, true);
-  frame.output.lines = {{8, {4, 0, 0}, {4, 0, 1}}};
-  results.Add(frame);
-  results.Finish(RunSummary::Run(), Config(), Json());
+  PipelineFrame departs = MakeFrame(2'000'000'000, true), stays = MakeFrame(3'000'000'000, true);
+  departs.output.departed_lines = {{7, {3, 0, 0}, {3, 0, 1}}};
+  stays.output.lines = {{8, {4, 0, 0}, {4, 0, 1}}};
+  WriteResults(folder, {FrameThatLosesTwoLines(), departs, stays});
   EXPECT_EQ(nlohmann::json::parse(folder.Read("summary.json"))["lines"], 2);
   EXPECT_THAT(folder.Read("lines.ply"), HasSubstr("element edge 2\n"));
   const std::string lines = folder.Read("lines.obj");
@@ -249,26 +248,21 @@ TEST(ResultFiles, HoldARecognizedLineOnce) {
 
 TEST(ResultFiles, HoldAMergedLineOnce) {
   const testing::TemporaryFolder folder;
-  ResultFiles results(folder.path());
-  results.Add(FrameThatLosesTwoLines());
   PipelineFrame frame = MakeFrame(2'000'000'000, true);
   frame.output.absorbed_lines = {8, 99};
   frame.output.departed_lines = {{7, {3, 0, 0}, {3, 0, 1}}};
-  results.Add(frame);
-  results.Finish(RunSummary::Run(), Config(), Json());
+  WriteResults(folder, {FrameThatLosesTwoLines(), frame});
   EXPECT_EQ(nlohmann::json::parse(folder.Read("summary.json"))["lines"], 1);
   EXPECT_THAT(folder.Read("lines.obj"), HasSubstr("v 3.0000 0.0000 1.0000\n"));
 }
 
 TEST(ResultFiles, HoldLandmarksOfTheLastFrameOnce) {
   const testing::TemporaryFolder folder;
-  ResultFiles results(folder.path());
   PipelineFrame frame = MakeFrame(1'000'000'000, true);
   frame.output.points = frame.output.departed_points = {{1, {1, 1, 1}}};
   frame.output.lines = {{7, {1, 0, 0}, {1, 0, 1}}};
   frame.output.departed_lines = {{7, {1, 0, 0}, {1, 0, 5}}};
-  results.Add(frame);
-  results.Finish(RunSummary::Run(), Config(), Json());
+  WriteResults(folder, {frame});
   EXPECT_THAT(folder.Read("map.ply"), HasSubstr("element vertex 1 "));
   EXPECT_THAT(folder.Read("lines.ply"), HasSubstr("element edge 1\n"));
   EXPECT_THAT(folder.Read("lines.obj"), HasSubstr("v 1.0000 0.0000 5.0000\n"));
@@ -276,19 +270,15 @@ TEST(ResultFiles, HoldLandmarksOfTheLastFrameOnce) {
 
 TEST(ResultFiles, KeepLinesOfAnEarlierWorldFrame) {
   const testing::TemporaryFolder folder;
-  ResultFiles results(folder.path());
-  PipelineFrame frame = MakeFrame(1'000'000'000, true);
-  frame.output.departed_lines = {{7, {1, 0, 0}, {1, 0, 1}}};
-  frame.output.lines = {{8, {2, 0, 0}, {2, 0, 1}}};
-  results.Add(frame);
-  frame = MakeFrame(2'000'000'000, false);
-  frame.output.restarted = true;
-  results.Add(frame);
-  frame = MakeFrame(3'000'000'000, true);
-  frame.output.departed_lines = {{7, {3, 0, 0}, {3, 0, 1}}};
-  frame.output.lines = {{8, {4, 0, 0}, {4, 0, 1}}};
-  results.Add(frame);
-  results.Finish(RunSummary::Run(), Config(), Json());
+  std::vector<PipelineFrame> frames = {MakeFrame(1'000'000'000, true),
+                                       MakeFrame(2'000'000'000, false),
+                                       MakeFrame(3'000'000'000, true)};
+  frames[0].output.departed_lines = {{7, {1, 0, 0}, {1, 0, 1}}};
+  frames[0].output.lines = {{8, {2, 0, 0}, {2, 0, 1}}};
+  frames[1].output.restarted = true;
+  frames[2].output.departed_lines = {{7, {3, 0, 0}, {3, 0, 1}}};
+  frames[2].output.lines = {{8, {4, 0, 0}, {4, 0, 1}}};
+  WriteResults(folder, frames);
   EXPECT_EQ(nlohmann::json::parse(folder.Read("summary.json"))["lines"], 4);
   const std::string lines = folder.Read("lines.obj");
   for (const std::string x : {"1", "2", "3", "4"}) {

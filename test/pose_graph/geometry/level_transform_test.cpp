@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace plm_vins {
 namespace {
 
@@ -30,5 +32,39 @@ TEST(LevelTransform, ConvertsToAVectorAndBack) {
   EXPECT_EQ(back.translation, kFirst.translation);
 }
 
+const LevelTransform kMoved = {2.5, {4, -3, 1}};
+
+LevelTransform Fit(const std::vector<LevelTransform>& from, const std::vector<LevelTransform>& to) {
+  LevelFit fit;
+  for (size_t i = 0; i < from.size(); ++i) fit.Add(from[i], to[i]);
+  return fit.Transform();
+}
+
+void ExpectNear(const LevelTransform& actual, const LevelTransform& expected) {
+  EXPECT_LT((actual.translation - expected.translation).norm(), 1e-9);
+  EXPECT_NEAR(WrapAngle(actual.yaw - expected.yaw), 0, 1e-9);
+}
+
+TEST(LevelFit, FindsACommonTransform) {
+  std::vector<LevelTransform> from = {{0, {0, 0, 0}}, {1, {3, 0, 1}}, {-2, {3, 5, 0}}};
+  std::vector<LevelTransform> to;
+  to.reserve(from.size());
+  for (const LevelTransform& frame : from) to.push_back(kMoved * frame);
+  ExpectNear(Fit(from, to), kMoved);
+}
+
+TEST(LevelFit, UsesTheHeadingOfASingleFrame) {
+  ExpectNear(Fit({{0.3, {1, 2, 3}}}, {kMoved * LevelTransform{0.3, {1, 2, 3}}}), kMoved);
+}
+
+TEST(LevelFit, IsTheIdentityWithoutPairs) { ExpectNear(Fit({}, {}), LevelTransform()); }
+
+// The distance of two frames has decreased: their midpoint stays, so both move equally.
+TEST(LevelFit, AveragesResiduals) {
+  const LevelTransform T = Fit({{0, {-1, 0, 0}}, {0, {1, 0, 0}}}, {{0, {0, 0, 0}}, {0, {1, 0, 0}}});
+  ExpectNear(T, {0, {0.5, 0, 0}});
+}
+
 }  // namespace
+
 }  // namespace plm_vins

@@ -3,8 +3,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "pose_graph/keyframes/keyframe.h"
 #include "pose_graph/keyframes/keyframe_maker.h"
-#include "pose_graph/keyframes/keyframe_neighbors.h"
 #include "pose_graph/keyframes/keyframe_policy.h"
 #include "pose_graph/keyframes/odometry_noise.h"
 #include "test/pose_graph/two_visits.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulator/recording/bag_recorder.h"
+#include "simulator/recording/recorder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

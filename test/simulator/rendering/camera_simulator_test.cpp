@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/camera/readout_share.h"
+#include "common/camera/camera_model.h"
 #include "simulator/default_sensors.h"
 
 namespace plm_vins::simulator {

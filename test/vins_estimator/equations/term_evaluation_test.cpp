@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "test/testing/numeric_jacobian.h"
-#include "vins_estimator/solver/factor_cost.h"
+#include "vins_estimator/solver/ceres_adapters.h"
 
 namespace plm_vins {
 namespace {

@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <vector>
 
-#include "common/imu/imu_interpolation.h"
+#include "common/imu/imu_samples.h"
 #include "simulator/imu_simulator.h"
 #include "test/testing/numeric_jacobian.h"
 #include "vins_estimator/imu/preintegration.h"
@@ -96,22 +95,6 @@ TEST_F(ImuPropagatorTest, ResetOnASampleStartsThere) {
   ExpectSame(propagator_.Add(samples_[101]), Predict(samples_[100].t_ns, 101));
 }
 
-TEST_F(ImuPropagatorTest, IgnoresBadSamples) {
-  for (size_t i = 0; i <= 100; ++i) propagator_.Add(samples_[i]);
-  propagator_.Reset(start_, samples_[100].t_ns);
-  ImuSample bad = samples_[101];
-  bad.accel.y() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(propagator_.Add(bad).has_value());
-  const ImuSample not_read{samples_[101].t_ns - kMillisecond};  // all zero
-  EXPECT_FALSE(propagator_.Add(not_read).has_value());
-  ImuSample beyond_time = samples_[101];
-  beyond_time.t_ns = kEndOfTime_ns;
-  EXPECT_FALSE(propagator_.Add(beyond_time).has_value());
-  EXPECT_FALSE(propagator_.Add(samples_[100]).has_value());  // repeated
-  EXPECT_FALSE(propagator_.Add(samples_[50]).has_value());   // backwards
-  ExpectSame(propagator_.Add(samples_[101]), Predict(samples_[100].t_ns, 101));
-}
-
 TEST_F(ImuPropagatorTest, WaitsForSamplesAfterAStateThatIsAhead) {
   propagator_.Add(samples_[0]);
   propagator_.Reset(start_, samples_[2].t_ns);
@@ -136,17 +119,6 @@ TEST_F(ImuPropagatorTest, ReturnsNulloptAfterClear) {
   EXPECT_FALSE(propagator_.Add(samples_[1]).has_value());
 }
 
-TEST_F(ImuPropagatorTest, IgnoresImpossibleSamples) {
-  ImuPropagator propagator(kPropagatorGravity_W);
-  for (size_t i = 0; i <= 200; ++i) propagator.Add(samples_[i]);
-  propagator.Reset(start_, samples_[100].t_ns);
-  ImuSample absurd = samples_[200];
-  absurd.t_ns += kMillisecond;
-  absurd.accel.x() = 1e6;
-  EXPECT_FALSE(propagator.Add(absurd));
-  ExpectSame(propagator.Add(samples_[201]), Predict(samples_[100].t_ns, 201));
-}
-
 TEST_F(ImuPropagatorTest, SpikeIsDelayedAndReplaced) {
   for (size_t i = 0; i <= 200; ++i) propagator_.Add(samples_[i]);
   propagator_.Reset(start_, samples_[100].t_ns);
@@ -157,17 +129,6 @@ TEST_F(ImuPropagatorTest, SpikeIsDelayedAndReplaced) {
   ASSERT_TRUE(state.has_value());
   EXPECT_EQ(state->t_ns, samples_[202].t_ns);
   EXPECT_MATRIX_NEAR(state->position(), Predict(samples_[100].t_ns, 202).position(), 1e-3);
-}
-
-TEST_F(ImuPropagatorTest, ASampleAloneInTheFutureIsIgnored) {
-  ImuPropagator propagator(kPropagatorGravity_W);
-  for (size_t i = 0; i <= 200; ++i) propagator.Add(samples_[i]);
-  propagator.Reset(start_, samples_[100].t_ns);
-  ImuSample future = samples_[201];
-  future.t_ns += 3600 * 1000 * kMillisecond;
-  EXPECT_FALSE(propagator.Add(future));
-  EXPECT_EQ(propagator.newest_ns(), samples_[200].t_ns);
-  ExpectSame(propagator.Add(samples_[201]), Predict(samples_[100].t_ns, 201));
 }
 
 }  // namespace

@@ -8,14 +8,16 @@
 namespace plm_vins {
 namespace {
 
+// The tests of MeasurementSync show the other rules.
+
 using testing::kMs;
 using testing::Lines;
 
 constexpr int kMaxLag = 3, kPatience = 10;
 constexpr double kMaxStall = 0.4;  // [s]
 
-LinePairing Pairing(bool expected = true, int max_frames = 200) {
-  return LinePairing({expected, kMaxLag, kMaxStall, kPatience, max_frames});
+LinePairing Pairing() {
+  return LinePairing({/*expected=*/true, kMaxLag, kMaxStall, kPatience, /*max_frames=*/200});
 }
 
 void Add(LinePairing* pairing, int64_t t_ms, bool image_waits = false) {
@@ -41,19 +43,6 @@ LinePairing Missing() {
   return pairing;
 }
 
-TEST(LinePairing, LinesAreResolvedOnceTheyArriveOrAreSkipped) {
-  LinePairing pairing = Pairing();
-  Add(&pairing, 50);
-  EXPECT_TRUE(pairing.AreDecided(49 * kMs, {}));
-  EXPECT_TRUE(pairing.AreDecided(50 * kMs, {}));
-  EXPECT_FALSE(pairing.AreDecided(51 * kMs, {}));
-}
-
-TEST(LinePairing, LinesAreResolvedAfterTheTimeout) {
-  EXPECT_FALSE(Pairing().AreDecided(0, {kMaxLag - 1, 0.1}));
-  EXPECT_TRUE(Pairing().AreDecided(0, {kMaxLag, 0.15}));
-}
-
 TEST(LinePairing, AStallOfTheTransportDelaysImagesWhoseLinesWereInTimeBefore) {
   LinePairing pairing = Pairing();
   Add(&pairing, 50);
@@ -73,16 +62,6 @@ TEST(LinePairing, AStallOfTheTransportDelaysImagesWhoseLinesWereInTimeBefore) {
   EXPECT_TRUE(pairing.AreDecided(300 * kMs, {kMaxLag, 0.15})) << "a tracker that has stopped";
 }
 
-TEST(LinePairing, UnexpectedLinesAreUsedWithoutWaiting) {
-  LinePairing pairing = Pairing(/*expected=*/false);
-  EXPECT_TRUE(pairing.AreDecided(50 * kMs, {}));
-  Add(&pairing, 50);
-  EXPECT_TRUE(Take(&pairing, 50));
-  for (int i = 51; i < 100; ++i) EXPECT_FALSE(Take(&pairing, i));
-  EXPECT_EQ(pairing.statistics().frames_without_lines, 0);
-  EXPECT_FALSE(pairing.are_missing());
-}
-
 TEST(LinePairing, UsesTheLinesOfTheImageAndDropsEarlierOnes) {
   LinePairing pairing = Pairing();
   for (const int64_t t : {10, 20, 30, 50}) Add(&pairing, t);
@@ -92,36 +71,6 @@ TEST(LinePairing, UsesTheLinesOfTheImageAndDropsEarlierOnes) {
   EXPECT_EQ(pairing.statistics().frames_without_lines, 1);
   EXPECT_TRUE(Take(&pairing, 50));
   EXPECT_EQ(pairing.statistics().lines_without_points, 2);
-}
-
-TEST(LinePairing, LinesOfImagesThatAreGoneAreLate) {
-  LinePairing pairing = Pairing();
-  Take(&pairing, 20);
-  Add(&pairing, 10);
-  Add(&pairing, 20);
-  Add(&pairing, 30);
-  EXPECT_EQ(pairing.statistics().lines_late, 2);
-  EXPECT_TRUE(Take(&pairing, 30));
-}
-
-TEST(LinePairing, RestartedTrackerRevokesLaterTimes) {
-  LinePairing pairing = Pairing();
-  for (const int64_t t : {10, 90, 95, 95, 20, 30}) Add(&pairing, t);
-  EXPECT_EQ(pairing.statistics().lines_out_of_order, 2);
-  EXPECT_FALSE(pairing.AreDecided(90 * kMs, {}));
-  for (const int64_t t : {10, 20, 30}) EXPECT_TRUE(Take(&pairing, t));
-}
-
-TEST(LinePairing, TheQueueIsBounded) {
-  LinePairing pairing = Pairing(/*expected=*/true, /*max_frames=*/3);
-  for (int64_t t = 1; t <= 5; ++t) Add(&pairing, t);
-  EXPECT_EQ(pairing.statistics().lines_without_points, 2);
-  EXPECT_TRUE(Take(&pairing, 3));
-}
-
-TEST(LinePairing, MissingLinesAreNotWaitedFor) {
-  EXPECT_TRUE(Missing().AreDecided(100 * kMs, {}));
-  EXPECT_FALSE(Missing().are_of_other_images());
 }
 
 TEST(LinePairing, MissingLinesEndWithThoseOfAWaitingImage) {
@@ -136,16 +85,6 @@ TEST(LinePairing, MissingLinesEndWithThoseOfAWaitingImage) {
   EXPECT_TRUE(early.are_missing());
   Add(&early, 12, /*image_waits=*/true);
   EXPECT_FALSE(early.are_missing());
-}
-
-TEST(LinePairing, MissingLinesMayBeThoseOfOtherImages) {
-  LinePairing pairing = Pairing();
-  for (int i = 0; i < kPatience; ++i) {
-    Add(&pairing, 20 * i + 10);
-    Take(&pairing, 20 * i + 20);
-  }
-  EXPECT_TRUE(pairing.are_missing());
-  EXPECT_TRUE(pairing.are_of_other_images());
 }
 
 TEST(LinePairing, ClearForgetsTimeNotThatLinesAreMissing) {

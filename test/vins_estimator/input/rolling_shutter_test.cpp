@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "common/camera/readout_share.h"
+#include "common/camera/camera_model.h"
 #include "common/geometry/rigid3.h"
 #include "common/geometry/so3.h"
 #include "simulator/default_sensors.h"

@@ -7,8 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "test/vins_estimator/initialization/simulated_frames.h"
-#include "vins_estimator/estimator.h"
+#include "test/vins_estimator/estimated_flight.h"
 
 namespace plm_vins {
 namespace {
@@ -87,13 +86,6 @@ TEST(ExtrinsicCalibratorTest, RejectsTheGyroOfAnotherFlight) {
   EXPECT_FALSE(Calibrate(flight).R_B_C);
 }
 
-// Root mean square distance of the positions after rigid alignment [m].
-double AbsoluteError(const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& truth) {
-  const Eigen::Matrix4d T = Eigen::umeyama(estimate, truth, /*with_scaling=*/false);
-  const Eigen::Matrix3Xd aligned = (T * estimate.colwise().homogeneous()).topRows<3>();
-  return std::sqrt((aligned - truth).squaredNorm() / static_cast<double>(truth.cols()));
-}
-
 SimulatedFlight FlightToCalibrateIn() {
   auto options = FlightOptions(Motion::kGentle, 1);
   options.trajectory.duration = 15;
@@ -103,11 +95,9 @@ SimulatedFlight FlightToCalibrateIn() {
 }
 
 Config WithoutCameraPose(const SimulatedFlight& flight) {
-  Config config;
-  config.sensor = flight.sensor;
+  Config config = testing::ConfigFor(flight);
   config.sensor.cameras[0].T_B_C = Rigid3d();
   config.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kCalibrateRotation;
-  config.estimator.point_noise = simulator::FeatureSimulationOptions().point_noise_px;
   return config;
 }
 
@@ -115,22 +105,15 @@ Config WithoutCameraPose(const SimulatedFlight& flight) {
 TEST(ExtrinsicCalibratorTest, EstimatorStartsWithoutAnyCameraPose) {
   const SimulatedFlight flight = FlightToCalibrateIn();
   Estimator estimator(WithoutCameraPose(flight));
-  Eigen::Matrix3Xd estimate(3, flight.frames.size()), truth = estimate;
-  Eigen::Index poses = 0;
-  Rigid3d T_B_C;
-  for (size_t i = 0; i < flight.frames.size(); ++i) {
-    const EstimatorOutput output = estimator.Process(flight.frames[i]);
-    EXPECT_FALSE(output.restarted) << output.reason;
-    if (!output.has_pose) continue;
-    EXPECT_GT(i, 80u);
-    estimate.col(poses) = output.state.position();
-    truth.col(poses++) = flight.truth[i].position();
-    T_B_C = output.calibration.cameras[0].T_B_C;
-  }
-  ASSERT_GT(poses, 100);
-  EXPECT_LT(AbsoluteError(estimate.leftCols(poses), truth.leftCols(poses)), 0.03);
-  EXPECT_LT(T_B_C.rotation.angularDistance(flight.sensor.cameras[0].T_B_C.rotation), 0.2 * kDegree);
-  EXPECT_LT((T_B_C.translation - flight.sensor.cameras[0].T_B_C.translation).norm(), 0.04);
+  const testing::EstimatedFlight estimated = testing::Estimate(flight, &estimator);
+  EXPECT_TRUE(estimated.restarts.empty());
+  ASSERT_GT(estimated.truth.size(), 100u);
+  EXPECT_GT(estimated.truth.front().t_ns, flight.truth[80].t_ns);
+  EXPECT_LT(testing::AbsoluteError(estimated), 0.03);
+  const Rigid3d error = estimated.outputs.back().calibration.cameras[0].T_B_C.Inverse() *
+                        flight.sensor.cameras[0].T_B_C;
+  EXPECT_LT(error.rotation.angularDistance(Eigen::Quaterniond::Identity()), 0.2 * kDegree);
+  EXPECT_LT(error.translation.norm(), 0.04);
 }
 
 TEST(ExtrinsicCalibratorTest, TheRotationSurvivesALoss) {

@@ -14,7 +14,6 @@
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/problem/placement_problem.h"
-#include "vins_estimator/uncertainty/state_covariance.h"
 
 namespace plm_vins {
 namespace {

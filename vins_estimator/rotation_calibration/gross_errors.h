@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "vins_estimator/rotation_calibration/extrinsic_rotation.h"
+
+namespace plm_vins {
+
+// A gross error of the camera's rotation in the body, of the kinds that occur.
+struct MountingError {
+  enum class Kind { kInverse, kTurned };  // the inverse was given; the image is turned
+  Kind kind = Kind::kInverse;
+  double angle = 0;  // of the error; of a turned image about the optical axis, signed [rad]
+};
+
+// Returns the error that explains the pairs if the configured rotation does not: needs rotations
+// about one axis only. Returns nullopt if there is none, or too few rotations.
+std::optional<MountingError> ExplainByMounting(const std::vector<RotationPair>& pairs,
+                                               const Eigen::Quaterniond& R_B_C);
+
+// Returns by how much the configured focal length is too long, relative, if another one makes the
+// points of all pairs satisfy the epipolar constraint with the rotation of the gyro, and the
+// configured one does not. Unlike a comparison of rotations, this holds in translation as well,
+// which a relative pose would trade for the error. `noise` is the standard deviation of a
+// normalized coordinate. Returns nullopt otherwise, or if there are too few rotations.
+std::optional<double> ErrorOfFocalLength(const std::vector<RotationPair>& pairs,
+                                         const Eigen::Quaterniond& R_B_C, double noise);
+
+}  // namespace plm_vins

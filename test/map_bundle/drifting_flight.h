@@ -36,8 +36,8 @@ class DriftingFlight {
   explicit DriftingFlight(const DriftingFlightOptions& options)
       : options_(options), random_(options.seed), trajectory_(TrajectoryOf(options)) {
     for (int i = 0; i < 700; ++i) {
-      const Eigen::Vector3d direction =
-          Eigen::Vector3d(random_.Normal(), random_.Normal(), random_.Normal()).normalized();
+      const double z = random_.Normal(), y = random_.Normal(), x = random_.Normal();
+      const Eigen::Vector3d direction = Eigen::Vector3d(x, y, z).normalized();
       points_.push_back(Eigen::Vector3d(0, 0, 1.5) + random_.Uniform(4, 8) * direction);
     }
     for (int i = 0; i < options.far_points; ++i) {

@@ -82,7 +82,7 @@ TEST(GlobalSfmTest, ExactTracksGiveTheExactStructureUpToScale) {
   EXPECT_EQ(structure->p_G_C[0], Vector3d::Zero());
 }
 
-// Of 1000 scenes, 13 are rejected; the others have errors of 0.026 (median), 0.078 (a hundredth
+// 13 of 1000 scenes are rejected; the others have errors of 0.026 (median), 0.078 (a hundredth
 // exceeds it) and at most 0.135. The median of ten exceeds 0.05 in about one of 1000 cases.
 TEST(GlobalSfmTest, NoiseAndOutliersCostLittle) {
   std::vector<double> errors;

@@ -141,6 +141,7 @@ World MakeIrregular(TextureStyle style, uint64_t seed) {
   constexpr int kWalls = 7;
   Random heading_random(seed, 1);
   std::vector<double> headings;
+  headings.reserve(kWalls);
   for (int i = 0; i < kWalls; ++i) {
     headings.push_back((i + heading_random.Uniform(-0.1, 0.1)) * 2 * M_PI / kWalls);
   }

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "common/geometry/so3.h"
+#include "common/median.h"
 #include "simulator/random.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 
@@ -81,15 +82,20 @@ TEST(GlobalSfmTest, ExactTracksGiveTheExactStructureUpToScale) {
   EXPECT_EQ(structure->p_G_C[0], Vector3d::Zero());
 }
 
+// 13 of 1000 scenes are rejected; the others have errors of 0.026 (median), 0.078 (a hundredth
+// exceeds it) and at most 0.135. The median of ten exceeds 0.05 in about one of 1000 cases.
 TEST(GlobalSfmTest, NoiseAndOutliersCostLittle) {
+  std::vector<double> errors;
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     const Scene scene(0.1, 0.5 / 460, 0.03, 25, seed);
     std::string reason;
     const auto structure = ReconstructStructure(scene.tracks, scene.R_G_C, kOptions, &reason);
     ASSERT_TRUE(structure) << "seed " << seed << ": " << reason;
-    EXPECT_LT(RelativeError(*structure, scene), 0.08) << "seed " << seed;
+    errors.push_back(RelativeError(*structure, scene));
+    EXPECT_LT(errors.back(), 0.15) << "seed " << seed;
     EXPECT_GT(structure->num_points, 100) << "seed " << seed;
   }
+  EXPECT_LT(Median(errors), 0.05);
 }
 
 TEST(GlobalSfmTest, RejectsWithoutTranslation) {

@@ -83,7 +83,7 @@ class PointTracker::Implementation {
     }
     still_parts_.Add(sample, R_now_then, Positions());
     Spread();
-    if (IsRefillDue()) Refill(image);
+    if (IsRefillDue()) Refill(pyramid);
     CutMissingPatches(sample.gray);
     LookAtOthers(sample.gray, others);
     sample_ = sample;
@@ -298,9 +298,9 @@ class PointTracker::Implementation {
   int MissingTracks() const { return config_.max_cnt - static_cast<int>(tracks_.size()); }
   bool IsRefillDue() const { return MissingTracks() > kRefillShare * config_.max_cnt; }
 
-  void Refill(const cv::Mat& image) {
+  void Refill(const OpticalFlow::Pyramid& pyramid) {
     for (const cv::Point2f& corner :
-         detector_.Detect(image, Positions(), MissingTracks(), still_parts_.moving())) {
+         detector_.Detect(pyramid, Positions(), MissingTracks(), still_parts_.moving())) {
       const auto xy = RayOf(*camera_, ToEigen(corner));
       if (!xy) continue;
       PointTrack track;

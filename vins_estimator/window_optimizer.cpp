@@ -160,7 +160,7 @@ WindowOptimizer::Solution WindowOptimizer::PlaceNewest() {
 bool WindowOptimizer::Suffices(const Solution& placement) const {
   const SlidingWindow& window = estimate_.map.window;
   const bool is_known = placement.exists && keyframe_.covariance;
-  if (!WindowIsFull() || !is_known || window.newest().stationary) return false;
+  if (!WindowIsFull() || !is_known) return false;
   if (!imu_agreement_.IsUndoubted(window, keyframe_.t_ns)) return false;
   const PointMap::Fit fit = FitOfNewest(keyframe_.t_ns);
   return fit.seen >= kMinPointsToPlace && fit.contradicted <= kDoubtfulShare * fit.seen;

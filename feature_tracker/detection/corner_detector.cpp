@@ -17,6 +17,13 @@ namespace {
 constexpr float kMinEigenvalue = 5e-4F;
 constexpr int kCornersPerRegion = 8;  // mean number for each region of RegionQueue
 
+cv::Mat HalfImage(const std::vector<cv::Mat>& pyramid) {
+  if (pyramid.size() > 1) return pyramid[1];
+  cv::Mat half;
+  cv::pyrDown(pyramid.front(), half);
+  return half;
+}
+
 // Returns the smallest eigenvalue [Shi1994] or Harris' measure of the gradient covariance.
 cv::Mat Response(const cv::Mat& image, CornerDetectorType type) {
   constexpr int kBlock = 3, kAperture = 3;
@@ -47,17 +54,18 @@ size_t RegionQueue::RegionOf(const cv::Point2f& position) const {
 CornerDetector::CornerDetector(const PointTrackerConfig& config, cv::Mat mask)
     : config_(config), mask_(std::move(mask)) {}
 
-std::vector<cv::Point2f> CornerDetector::Detect(const cv::Mat& image,
+std::vector<cv::Point2f> CornerDetector::Detect(const std::vector<cv::Mat>& pyramid,
                                                 const std::vector<cv::Point2f>& existing,
                                                 int max_count, const cv::Mat& moving) const {
   if (max_count <= 0) return {};
+  const cv::Mat& image = pyramid.front();
   SpacingGrid occupied(image.size(), config_.min_dist);
   RegionQueue queue(image.size(), config_.max_cnt / kCornersPerRegion + 1);
   for (const cv::Point2f& point : existing) {
     occupied.Add(point);
     queue.CountPoint(point);
   }
-  for (const Candidate& candidate : FindCandidates(image, occupied, moving)) {
+  for (const Candidate& candidate : FindCandidates(pyramid, occupied, moving)) {
     queue.AddCandidate(candidate.position);
   }
   std::vector<cv::Point2f> corners;
@@ -75,12 +83,11 @@ std::vector<cv::Point2f> CornerDetector::Detect(const cv::Mat& image,
 }
 
 // Returns the local maxima of the response, strongest first; equal ones in order of position.
-std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(const cv::Mat& image,
-                                                                      const SpacingGrid& occupied,
-                                                                      const cv::Mat& moving) const {
-  cv::Mat half_image, local_maximum;
-  cv::pyrDown(image, half_image);
-  const cv::Mat response = Response(half_image, config_.corner_detector);
+std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(
+    const std::vector<cv::Mat>& pyramid, const SpacingGrid& occupied, const cv::Mat& moving) const {
+  const cv::Size image_size = pyramid.front().size();
+  const cv::Mat response = Response(HalfImage(pyramid), config_.corner_detector);
+  cv::Mat local_maximum;
   cv::dilate(response, local_maximum, cv::Mat());
   const float min_response = MinResponse(response);
 
@@ -91,7 +98,7 @@ std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(const cv::
     for (int x = 0; x < response.cols; ++x) {
       if (values[x] < min_response || values[x] < maxima[x]) continue;
       const cv::Point2f position(2.0F * static_cast<float>(x), 2.0F * static_cast<float>(y));
-      if (!IsAllowed(position, image.size()) || !MaskAllows(moving, position)) continue;
+      if (!IsAllowed(position, image_size) || !MaskAllows(moving, position)) continue;
       if (!occupied.IsFree(position)) continue;
       candidates.push_back({position, values[x]});
     }

@@ -46,11 +46,13 @@ class CornerDetector {
   // `mask` (CV_8UC1 of the image size, non-zero where corners are allowed) may be empty.
   CornerDetector(const PointTrackerConfig& config, cv::Mat mask);
 
-  // Returns at most `max_count` new corners [px] of the CV_8UC1 image, at least min_dist from the
-  // `existing` ones and from each other, in order of selection. `moving`, a mask in addition to
-  // that of the detector, may be empty.
-  std::vector<cv::Point2f> Detect(const cv::Mat& image, const std::vector<cv::Point2f>& existing,
-                                  int max_count, const cv::Mat& moving = {}) const;
+  // Returns at most `max_count` new corners [px], at least min_dist from the `existing` ones and
+  // from each other, in order of selection. `pyramid` has the CV_8UC1 image and, if there is one,
+  // that of half its resolution. `moving`, a mask in addition to that of the detector, may be
+  // empty.
+  std::vector<cv::Point2f> Detect(const std::vector<cv::Mat>& pyramid,
+                                  const std::vector<cv::Point2f>& existing, int max_count,
+                                  const cv::Mat& moving = {}) const;
 
  private:
   struct Candidate {
@@ -59,8 +61,8 @@ class CornerDetector {
   };
 
   float MinResponse(const cv::Mat& response) const;
-  std::vector<Candidate> FindCandidates(const cv::Mat& image, const SpacingGrid& occupied,
-                                        const cv::Mat& moving) const;
+  std::vector<Candidate> FindCandidates(const std::vector<cv::Mat>& pyramid,
+                                        const SpacingGrid& occupied, const cv::Mat& moving) const;
   bool IsAllowed(const cv::Point2f& position, const cv::Size& image_size) const;
 
   PointTrackerConfig config_;

@@ -6,8 +6,8 @@
 namespace plm_vins {
 namespace {
 
-// Limit for the residual of an interval: at least twice its mean in flights with correct noise.
-constexpr double kUndoubtedChiSquare = 1.5;
+// Limit for the residual of an interval: five times its mean in flights with correct noise.
+constexpr double kUndoubtedChiSquare = 4;
 
 // Standard deviations of bias steps that a shock, warm-up or sensor failure may cause.
 constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]

@@ -41,7 +41,7 @@ class CornerDetectorTest : public testing::TestWithParam<CornerDetectorType> {
 
 TEST_P(CornerDetectorTest, FindsCornersOfSquares) {
   config_.max_cnt = 120;
-  const auto corners = CornerDetector(config_, {}).Detect(Squares(), {}, 120);
+  const auto corners = CornerDetector(config_, {}).Detect({Squares()}, {}, 120);
   EXPECT_GT(corners.size(), 80U);
   for (const cv::Point2f& corner : corners) {
     for (const float value : {corner.x, corner.y}) {
@@ -55,7 +55,7 @@ TEST_P(CornerDetectorTest, FindsCornersOfSquares) {
 TEST_P(CornerDetectorTest, KeepsCountSpacingAndBorder) {
   const cv::Mat image = TexturedScene().View();
   const std::vector<cv::Point2f> existing{{100, 100}, {200, 50}};
-  auto corners = CornerDetector(config_, {}).Detect(image, existing, 40);
+  auto corners = CornerDetector(config_, {}).Detect({image}, existing, 40);
   EXPECT_EQ(corners.size(), 40U);
   for (const cv::Point2f& corner : corners) {
     EXPECT_TRUE(IsRefinementWindowInside(image.size(), corner));
@@ -68,10 +68,10 @@ TEST_P(CornerDetectorTest, RefillsWhereCornersAreMissing) {
   const cv::Mat image = TexturedScene().View();
   const CornerDetector detector(config_, {});
   std::vector<cv::Point2f> left_half;
-  for (const cv::Point2f& corner : detector.Detect(image, {}, 60)) {
+  for (const cv::Point2f& corner : detector.Detect({image}, {}, 60)) {
     if (corner.x < 0.5F * kWidth) left_half.push_back(corner);
   }
-  const auto refill = detector.Detect(image, left_half, 60 - static_cast<int>(left_half.size()));
+  const auto refill = detector.Detect({image}, left_half, 60 - static_cast<int>(left_half.size()));
   const auto in_right_half = std::count_if(
       refill.begin(), refill.end(), [](const auto& corner) { return corner.x >= 0.5F * kWidth; });
   EXPECT_GT(in_right_half, 0.9 * static_cast<double>(refill.size()));
@@ -81,7 +81,7 @@ TEST_P(CornerDetectorTest, SpreadsOverStrongAndWeakTexture) {
   cv::Mat image = TexturedScene().View();
   cv::Mat right = image.colRange(kWidth / 2, kWidth);
   right.convertTo(right, CV_8U, 0.5, 60);
-  const auto corners = CornerDetector(config_, {}).Detect(image, {}, 60);
+  const auto corners = CornerDetector(config_, {}).Detect({image}, {}, 60);
   const auto in_right_half = std::count_if(
       corners.begin(), corners.end(), [](const auto& corner) { return corner.x >= 0.5F * kWidth; });
   EXPECT_NEAR(static_cast<double>(in_right_half), 30, 8);
@@ -90,7 +90,7 @@ TEST_P(CornerDetectorTest, SpreadsOverStrongAndWeakTexture) {
 TEST_P(CornerDetectorTest, ObeysTheMask) {
   cv::Mat mask(kHeight, kWidth, CV_8UC1, cv::Scalar(0));
   cv::circle(mask, {kWidth / 2, kHeight / 2}, 80, 255, cv::FILLED);
-  const auto corners = CornerDetector(config_, mask).Detect(TexturedScene().View(), {}, 60);
+  const auto corners = CornerDetector(config_, mask).Detect({TexturedScene().View()}, {}, 60);
   EXPECT_GT(corners.size(), 20U);
   for (const cv::Point2f& corner : corners) {
     EXPECT_NE(mask.at<uint8_t>(cv::Point(corner)), 0);
@@ -101,15 +101,15 @@ TEST_P(CornerDetectorTest, FindsNothingInBlankOrNoisyDarkImages) {
   const CornerDetector detector(config_, {});
   for (const int gray : {0, 128, 255}) {
     const cv::Mat blank(kHeight, kWidth, CV_8UC1, cv::Scalar(gray));
-    EXPECT_TRUE(detector.Detect(blank, {}, 60).empty());
+    EXPECT_TRUE(detector.Detect({blank}, {}, 60).empty());
   }
   cv::Mat noise(kHeight, kWidth, CV_8UC1);
   cv::RNG(3).fill(noise, cv::RNG::NORMAL, 10, 1);
-  EXPECT_TRUE(detector.Detect(noise, {}, 60).empty());
+  EXPECT_TRUE(detector.Detect({noise}, {}, 60).empty());
 }
 
 TEST_P(CornerDetectorTest, FindsNothingIfZeroAreRequested) {
-  EXPECT_TRUE(CornerDetector(config_, {}).Detect(TexturedScene().View(), {}, 0).empty());
+  EXPECT_TRUE(CornerDetector(config_, {}).Detect({TexturedScene().View()}, {}, 0).empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, CornerDetectorTest,
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Types, CornerDetectorTest,
 TEST(CornerDetector, WithoutSubpixelsCornersArePixels) {
   PointTrackerConfig config = TestConfig(CornerDetectorType::kShiTomasi);
   config.corner_subpixel = false;
-  const auto corners = CornerDetector(config, {}).Detect(TexturedScene().View(), {}, 40);
+  const auto corners = CornerDetector(config, {}).Detect({TexturedScene().View()}, {}, 40);
   EXPECT_EQ(corners.size(), 40U);
   for (const cv::Point2f& corner : corners) {
     EXPECT_EQ(corner, cv::Point2f(std::round(corner.x), std::round(corner.y)));

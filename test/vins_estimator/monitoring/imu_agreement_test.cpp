@@ -66,10 +66,10 @@ TEST_F(ImuAgreementTest, TrustsAConsistentImu) {
 }
 
 TEST_F(ImuAgreementTest, RaisesTheNoiseOfAnIntervalAfterTheKeyframe) {
-  Contradict(kWindowFrames - 1, 1.4);
-  ASSERT_NEAR(ChiSquare(kWindowFrames - 1), 1.4, 0.01);
+  Contradict(kWindowFrames - 1, 3.9);
+  ASSERT_NEAR(ChiSquare(kWindowFrames - 1), 3.9, 0.01);
   EXPECT_TRUE(agreement_.IsUndoubted(window_, Keyframe()));
-  Contradict(kWindowFrames - 1, 1.6);
+  Contradict(kWindowFrames - 1, 4.1);
   EXPECT_FALSE(agreement_.IsUndoubted(window_, Keyframe()));
 }
 

@@ -160,9 +160,11 @@ MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60
 MAX_COLUMNS = 100
 OLDEST_PYTHON = (3, 8)
-# Names that Ubuntu 20.04 lacks, by kind of file: Eigen 3.3, CMake 3.16, the library of Python 3.8.
+# Names that Ubuntu 20.04 lacks, by kind of file: Eigen 3.3, the library of GCC 9 (floating-point
+# from_chars, parallel algorithms), CMake 3.16, the library of Python 3.8.
 NEWER_NAMES = {
-    ".h .cpp": r"Eigen::(Row)?Vector[X2-4]?<|Eigen::(all|last|lastN|seq|seqN)\b|\.reshaped\(",
+    ".h .cpp": r"Eigen::(Row)?Vector[X2-4]?<|Eigen::(all|last|lastN|seq|seqN)\b|\.reshaped\("
+               r"|\bstd::(chars_format|execution)\b",
     ".cmake .txt": r"\b(block|cmake_language|cmake_path)\("
                    r"|\bfile\((ARCHIVE_|CHMOD|COPY_FILE|REAL_PATH)|\bstring\(JSON"
                    r"|\bfind_(file|library|path|program)\([^)]*REQUIRED"

@@ -6,7 +6,7 @@
 #   ARCH           amd64 (default); or arm64: the build without ROS, cross-compiled, run by qemu
 #   --systems DIR  where systems are kept for the next run (default: /var/tmp/plm_systems)
 #   --mirror URL   of Debian packages (default: that of this machine)
-# JOBS limits the parallel compilers. CCACHE_DIR, if set, is used by the compilers.
+# JOBS is the number of parallel compilers and tests. CCACHE_DIR, if set, is used by the compilers.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 # shellcheck source=scripts/usage.sh

@@ -11,7 +11,8 @@ namespace plm_vins::simulator {
 
 // Seeded random numbers that do not depend on the standard library: the results of the
 // distributions in <random> are implementation-defined, so they are implemented here. The `stream`s
-// of a seed are independent of each other.
+// of a seed are independent of each other. A call draws at most one of its arguments, since
+// compilers evaluate arguments in different orders.
 class Random {
  public:
   explicit Random(uint64_t seed, uint64_t stream = 0) : engine_(Mix(seed ^ Mix(stream + 1))) {}

@@ -6,6 +6,7 @@
 
 #include "common/stopwatch.h"
 #include "vins_estimator/equations/normal_equations.h"
+#include "vins_estimator/failure/failure_detector.h"
 #include "vins_estimator/map/recalibration.h"
 #include "vins_estimator/problem/placement_problem.h"
 #include "vins_estimator/problem/problem_builder.h"

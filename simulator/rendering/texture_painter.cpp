@@ -42,17 +42,24 @@ cv::Mat1f TexturePainter::FractalNoise(const cv::Size& size, double coarsest, do
   return sum;
 }
 
+cv::Point TexturePainter::RandomPixel(const cv::Mat1f& canvas) {
+  const int y = random_.Index(canvas.rows);
+  return {random_.Index(canvas.cols), y};
+}
+
 void TexturePainter::AddStains(cv::Mat1f* canvas) {
   const double area = canvas->total() * texel_ * texel_;
   for (int i = 0; i < static_cast<int>(10 * area); ++i) {
-    const cv::Point center(random_.Index(canvas->cols), random_.Index(canvas->rows));
-    const cv::Size axes(Pixels(random_.Uniform(0.004, 0.03)), Pixels(random_.Uniform(0.004, 0.03)));
+    const cv::Point center = RandomPixel(*canvas);
+    const int height = Pixels(random_.Uniform(0.004, 0.03));
+    const cv::Size axes(Pixels(random_.Uniform(0.004, 0.03)), height);
     const double value = (*canvas)(center) + detail_ * random_.Uniform(-0.35, 0.15);
     cv::ellipse(*canvas, center, axes, random_.Uniform(0, 180), 0, 360, value, cv::FILLED);
   }
   for (int i = 0; i < static_cast<int>(2 * area); ++i) {
-    const cv::Point start(random_.Index(canvas->cols), random_.Index(canvas->rows));
-    const cv::Point offset(Pixels(random_.Uniform(0, 0.3)), Pixels(random_.Uniform(0, 0.1)));
+    const cv::Point start = RandomPixel(*canvas);
+    const int down = Pixels(random_.Uniform(0, 0.1));
+    const cv::Point offset(Pixels(random_.Uniform(0, 0.3)), down);
     cv::line(*canvas, start, start + offset, (*canvas)(start)-detail_ * random_.Uniform(0.05, 0.25),
              Pixels(0.004));
   }
@@ -139,7 +146,7 @@ cv::Mat1b TexturePainter::Panels(double width, double height, double brightness,
 void TexturePainter::DrawShapes(cv::Mat1f* canvas, int count) {
   const double size = std::min(canvas->cols, canvas->rows);
   for (int i = 0; i < count; ++i) {
-    const cv::Point center(random_.Index(canvas->cols), random_.Index(canvas->rows));
+    const cv::Point center = RandomPixel(*canvas);
     const double radius = random_.Uniform(0.03, 0.22) * size, turn = random_.Uniform(0, M_PI);
     const int corners = 3 + random_.Index(5);  // seven corners approximate a circle
     std::vector<cv::Point> outline;

@@ -34,6 +34,7 @@ class TexturePainter {
  private:
   cv::Mat1f Canvas(double width, double height, double brightness) const;
   cv::Mat1f FractalNoise(const cv::Size& size, double coarsest, double finest, double stretch);
+  cv::Point RandomPixel(const cv::Mat1f& canvas);
   void AddStains(cv::Mat1f* canvas);
   void DarkenEdges(cv::Mat1f* canvas) const;
   void DrawGrid(cv::Mat1f* canvas, double step_x, double step_y, double joint, bool running_bond,

@@ -161,7 +161,8 @@ World MakeIrregular(TextureStyle style, uint64_t seed) {
     if (i % 4 == 0) {
       furnisher.AddTable(2.75 * towards, heading);
     } else if (i % 4 == 1) {
-      const Vector3d aside(random.Uniform(-0.8, 0.8), random.Uniform(-0.8, 0.8), 2.4);
+      const double y = random.Uniform(-0.8, 0.8);
+      const Vector3d aside(random.Uniform(-0.8, 0.8), y, 2.4);
       furnisher.AddPlank(2.9 * towards, 3.1 * towards + aside, 0.14);
     } else {
       furnisher.AddCrate(2.9 * towards, random.Uniform(0.3, 0.7), heading);

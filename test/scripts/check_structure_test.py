@@ -60,6 +60,7 @@ class CheckStructure(unittest.TestCase):
     def test_names_that_ubuntu_20_04_lacks(self):
         for name, text in {
                 "common/a.h": HEADER + "Eigen::Vector<double, 5> a;\n",
+                "common/b.h": HEADER + "#include <execution>\nauto a = std::execution::par;\n",
                 "cmake/a.cmake": "find_program(A a REQUIRED)\n",
                 "test/CMakeLists.txt": "cmake_path(GET a FILENAME b)\n",
                 "scripts/a.py": f"a = b.{'removeprefix'}('c')\n"}.items():

@@ -28,28 +28,34 @@ cross_build() {
     -DCMAKE_CROSSCOMPILING_EMULATOR=/usr/bin/qemu-aarch64-static
 }
 
-# fly FOLDER COMMAND...: simulates and estimates a flight in FOLDER; COMMAND runs the programs.
+# fly FOLDER COMMAND...: simulates, estimates and evaluates a flight by copies of the programs in
+# FOLDER; COMMAND runs them.
 fly() {
-  local folder="$1" programs="$root/build/devel/lib/plm_vins"
+  local folder="$1"
   shift
   rm -rf "$folder"
   install -d -o nobody "$folder"
-  cp "$root/config/euroc.yaml" "$folder/"
-  "$@" "${runner[@]}" "$programs/simulate" --config "$folder/euroc.yaml" --duration 8 \
+  cp -r "$root/build/devel/lib/plm_vins"/{simulate,run_offline} "$root/scripts" \
+    "$root/config/euroc.yaml" "$folder/"
+  "$@" "${runner[@]}" "$folder/simulate" --config "$folder/euroc.yaml" --duration 8 \
     --asl "$folder/flight"
-  "$@" "${runner[@]}" "$programs/run_offline" --config "$folder/euroc.yaml" --asl "$folder/flight" \
-    --output "$folder/results"
+  "$@" "${runner[@]}" "$folder/run_offline" --config "$folder/euroc.yaml" \
+    --asl "$folder/flight" --output "$folder/results"
+  "$@" "$folder/scripts/evaluate.py" "$folder/results/trajectory.tum" \
+    "$folder/flight/groundtruth.tum" >"$folder/evaluation.txt"
 }
 
 # The second flight must give the same bytes. Its user writes decimal commas, has a home that is
 # not writable, another time zone, and names with umlauts and spaces.
 compare_flights() {
-  local plain=/flights/plain other='/flights/Flüge über Köln'
+  local plain=/flights/plain other='/flights/Flüge über Köln' file
   localedef -i de_DE -f UTF-8 de_DE.UTF-8
   fly "$plain" env
   fly "$other" setpriv --reuid=65534 --regid=65534 --clear-groups \
     env HOME=/ LC_ALL=de_DE.UTF-8 TZ=NPT-5:45
-  cmp "$plain/results/trajectory.tum" "$other/results/trajectory.tum"
+  for file in results/trajectory.tum evaluation.txt; do
+    cmp "$plain/$file" "$other/$file"
+  done
 }
 
 # versions PACKAGE...: prints the versions of the sources of installed packages.
@@ -76,11 +82,9 @@ else
   cross_build
   set -- -L unit --timeout 7200 "$@"
 fi
-evaluation=/flights/evaluation.txt tests=/flights/ctest.txt status=0
+tests=/flights/ctest.txt status=0
 compare_flights
-"$root/scripts/evaluate.py" /flights/plain/results/trajectory.tum \
-  /flights/plain/flight/groundtruth.tum | tee "$evaluation"
 cd "$root/build"
-ctest --output-on-failure -j2 "$@" | tee "$tests" || status=$?
-print_table "$evaluation" "$tests"
+ctest --output-on-failure -j "${JOBS:-2}" "$@" | tee "$tests" || status=$?
+print_table /flights/plain/evaluation.txt "$tests"
 exit "$status"

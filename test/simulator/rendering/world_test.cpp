@@ -121,5 +121,18 @@ TEST(World, SeedDeterminesTextures) {
   EXPECT_NE(look(1), look(2));
 }
 
+TEST(World, DoesNotDependOnTheCompiler) {
+  const World world = MakeWorld(WorldKind::kIrregular, TextureStyle::kRich, 1);
+  double brightness = 0;
+  for (const MipTexture& texture : world.scene.textures()) {
+    brightness += texture.Sample(0.3f, 0.2f, 0.01f);
+  }
+  Vector3d corners = Vector3d::Zero();
+  for (const Rectangle& r : world.scene.rectangles()) corners += r.corner;
+  EXPECT_NEAR(brightness, 17.90, 0.02);
+  EXPECT_NEAR(corners.x(), -89.149182, 1e-5);
+  EXPECT_NEAR(corners.y(), 19.373854, 1e-5);
+}
+
 }  // namespace
 }  // namespace plm_vins::simulator

@@ -69,7 +69,7 @@ class DriftingFlight {
       const int64_t t_ns = ToNanoseconds(Seconds(number));
       for (; sample->t_ns <= t_ns; ++sample) bundle->AddImu(Told(*sample));
       if (number >= options_.loaded) {
-        bundle->AddKeyframe(map, odometry_[i], Told_ns(t_ns), frames_[i]);
+        bundle->AddKeyframe(map, odometry_[i], Told(t_ns), frames_[i]);
       }
       bundle->AddLoops(map, LoopsOf(number));
     }
@@ -106,11 +106,11 @@ class DriftingFlight {
   }
 
   // Timestamp of the restarted clock.
-  int64_t Told_ns(int64_t t_ns) const {
+  int64_t Told(int64_t t_ns) const {
     return IsRestarted(t_ns) ? t_ns - ToNanoseconds(options_.restart) : t_ns;
   }
   ImuSample Told(ImuSample sample) const {
-    sample.t_ns = Told_ns(sample.t_ns);
+    sample.t_ns = Told(sample.t_ns);
     return sample;
   }
 
@@ -122,7 +122,7 @@ class DriftingFlight {
       return T_O_W * (options_.scale * p_W);
     };
     Keyframe keyframe;
-    keyframe.t_ns = Told_ns(t_ns);
+    keyframe.t_ns = Told(t_ns);
     keyframe.world = IsRestarted(t_ns) ? 1 : 0;
     keyframe.T_O_B = {T_O_W.rotation() * truth.T_W_B.rotation, in_O(truth.T_W_B.translation)};
     Rigid3d T_B_C(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.1, 0, 0.05});

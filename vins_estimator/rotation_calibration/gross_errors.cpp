@@ -44,6 +44,7 @@ double MedianResidual(const std::vector<RotationPair>& pairs, const Eigen::Quate
 
 double MedianTurn(const std::vector<RotationPair>& pairs) {
   std::vector<double> turns;
+  turns.reserve(pairs.size());
   for (const RotationPair& pair : pairs) turns.push_back(SO3Log(pair.R_then_now).norm());
   return Median(std::move(turns));
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "test/tracking/stereo/stereo_scene.h"
 
 namespace plm_vins {
@@ -51,27 +53,17 @@ TEST_F(EpipolarSearchTest, FindsNothingInAnotherScene) {
   EXPECT_FALSE(Search(Point(0.2, 0.1), {0, 3, 0}));
 }
 
-TEST_F(EpipolarSearchTest, BandAllowsForATurnedExtrinsics) {
+TEST_F(EpipolarSearchTest, BandAllowsForTurnedExtrinsics) {
   const SearchedPoint point = Point(0.1, 0.1);
   const auto truth = pair_.Project(point.xy, scene_.InverseDepth(point.xy));
-  const Rigid3d turned = {SO3Exp({0.015, 0, 0}) * StereoExtrinsics().rotation,
-                          StereoExtrinsics().translation};  // 3.4 px
-  const auto search = [&](double band_px) {
-    return SearchAlongCurve(pair_.With(turned), left_, point, right_, {0, 3, band_px});
-  };
-  const auto found = search(4.5);
-  ASSERT_TRUE(found);
-  EXPECT_LT((found->pixel - *truth).norm(), 0.3);
-}
-
-TEST_F(EpipolarSearchTest, SmallOffsetsNeedNoBand) {
-  const SearchedPoint point = Point(0.1, 0.1);
-  const auto truth = pair_.Project(point.xy, scene_.InverseDepth(point.xy));
-  const Rigid3d turned = {SO3Exp({0.002, 0, 0}) * StereoExtrinsics().rotation,
-                          StereoExtrinsics().translation};  // 0.46 px
-  const auto found = SearchAlongCurve(pair_.With(turned), left_, point, right_, {0, 3, 0.46});
-  ASSERT_TRUE(found);
-  EXPECT_LT((found->pixel - *truth).norm(), 0.3);
+  const Rigid3d stated = StereoExtrinsics();
+  const std::pair<double, double> cases[] = {{0.015, 4.5}, {0.002, 0.46}};  // 3.4 px and 0.46 px
+  for (const auto& [turn, band_px] : cases) {
+    const Rigid3d turned = {SO3Exp({turn, 0, 0}) * stated.rotation, stated.translation};
+    const auto found = SearchAlongCurve(pair_.With(turned), left_, point, right_, {0, 3, band_px});
+    ASSERT_TRUE(found) << turn;
+    EXPECT_LT((found->pixel - *truth).norm(), 0.3) << turn;
+  }
 }
 
 TEST_F(EpipolarSearchTest, RejectsRepetitivePatterns) {

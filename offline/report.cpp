@@ -46,7 +46,9 @@ std::string WorstDrop(const RunSummary::Run& run, const Source& source) {
 std::string MostWrong(const RunSummary::Run& run, const Source& source, const RunReport& report) {
   if (!run.findings.empty()) return run.findings.front();
   const std::string restart = report.LastRestart();
-  return restart.empty() ? WorstDrop(run, source) : restart;
+  if (!restart.empty()) return restart;
+  const std::string drop = WorstDrop(run, source);
+  return drop.empty() ? report.WhyOftenWithoutPose() : drop;
 }
 
 // Returns why most images are of no use; empty if they are.

@@ -16,6 +16,7 @@
 #include "vins_estimator/lengths/stated_lengths.h"
 #include "vins_estimator/monitoring/fault_report.h"
 #include "vins_estimator/rotation_calibration/rotation_check.h"
+#include "vins_estimator/state/derived_covariance.h"
 #include "vins_estimator/uncertainty/imu_noise_estimate.h"
 
 namespace plm_vins {
@@ -324,6 +325,9 @@ std::optional<EstimatedFrame> EstimationStage::Process(
     frame.output.reason = *std::exchange(restart_reason_, std::nullopt);
   }
   CheckRotations(*measurement, frame.output);
+  if (auto& known = frame.output.uncertainty) {
+    AddScaleDeviation(lengths_->Doubt(), frame.output.state, &*known);
+  }
   sync_.SetTimeOffset(estimator_->time_offset());
   frame.imu = measurement->imu;
   const std::vector<ImuSample>& imu = frame.imu;

@@ -195,7 +195,9 @@ WindowOptimizer::Solution WindowOptimizer::SolveWindow(const SolverOptions& opti
   solution.covariance = StateCovariance(map.window.newest().state.t_ns, &equations);
   keyframe_.covariance = StateCovariance(keyframe_.t_ns, &equations);
   rig_monitor_.JudgeBaselines(map.window, &equations);
-  if (config_->sensor.depth) depth_faults_ = FaultsOfDepths(map.window, &equations);
+  if (config_->sensor.depth) {
+    depth_faults_ = FaultsOfDepths(map.window, options_->focal_length, &equations);
+  }
   if (config_->estimator.adapt_imu_noise) {
     imu_noise_.Learn(map.window, is_first_, &equations);
   }

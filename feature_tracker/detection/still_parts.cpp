@@ -189,7 +189,7 @@ void StillParts::Compare(const Past& reference, const cv::Mat& gray, const cv::M
   const Correlation correlation = Correlate(reference.image.gray, gray);
   Turn turn{Eigen::AngleAxisd(reference.R_now_then).axis(),
             correlation.textured & turned & (correlation.covariance > kSame * correlation.product)};
-  const cv::Mat still = Lasting(turn);
+  const cv::Mat still = Lasting(turn), moved = turned & ~turn.still;
   Remember(std::move(turn));
   int decided = 0, standing = 0;
   for (const cv::Point2f& corner : corners) {
@@ -205,14 +205,17 @@ void StillParts::Compare(const Past& reference, const cv::Mat& gray, const cv::M
   } else if (AreaOf(turned) > 0.5 && AreaOf(still) < kRemainder * still_area_ * AreaOf(turned)) {
     largest_share_ = still_area_ = 0;
   }
-  cv::Mat around;
-  cv::dilate(still, around, cv::Mat::ones(kWindow_px, kWindow_px, CV_8UC1));
   if (!was_masked) {
-    moving_ = cv::Mat(gray.size(), CV_8UC1, cv::Scalar(255));
+    still_ = cv::Mat::zeros(gray.size(), CV_8UC1);
+    moved_ = still_.clone();
     has_learned_ = true;
   }
-  moving_.setTo(255, turned);  // outside `turned`, the previous mask remains
-  moving_.setTo(0, around);
+  still_.setTo(0, moved & moved_);
+  still_ |= still;
+  moved_ = moved;
+  cv::Mat around;
+  cv::dilate(still_, around, cv::Mat::ones(kWindow_px, kWindow_px, CV_8UC1));
+  moving_ = ~around;
 }
 
 std::string StillParts::Finding() const {
@@ -241,7 +244,9 @@ void StillParts::Remember(Turn turn) {
 
 void StillParts::LearnFrom(const StillParts& earlier) {
   Reset();
+  still_ = earlier.still_.clone();
   moving_ = earlier.moving_;
+  moved_ = cv::Mat::zeros(still_.size(), CV_8UC1);
   largest_share_ = earlier.largest_share_;
   still_area_ = earlier.still_area_;
 }

@@ -24,7 +24,9 @@ namespace plm_vins {
 // images may not belong to the scene. They are masked only if many tracks lie on them while other
 // parts of the image move, because a biased gyroscope shows a rotation at standstill as well; and
 // only if they stood still in the last turn about another axis or to the other side as well,
-// because near points stand still for a moment where turning and flying past cancel.
+// because near points stand still for a moment where turning and flying past cancel. One comparison
+// finds about five of six dots, because some coincide with edges of the scene. So a part stays
+// masked until two comparisons in turn see it move.
 class StillParts {
  public:
   explicit StillParts(std::shared_ptr<const CameraModel> camera) : camera_(std::move(camera)) {}
@@ -81,7 +83,9 @@ class StillParts {
   std::deque<Past> past_;  // oldest first
   std::optional<int64_t> compared_ns_;
   std::deque<Turn> turns_;  // the newest first
-  cv::Mat moving_;
+  cv::Mat still_;   // CV_8UC1: not zero in parts that stand still, without their surroundings
+  cv::Mat moving_;  // all but still_ and its surroundings
+  cv::Mat moved_;   // CV_8UC1: not zero where the newest comparison saw the image move
   bool has_learned_ = false;
   double largest_share_ = 0;  // of the corners that stood still in an image
   double still_area_ = 0;     // share of the image where the scene moves, with largest_share_

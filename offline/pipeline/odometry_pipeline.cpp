@@ -22,6 +22,9 @@ constexpr size_t kMaxUnfinished = 300;
 constexpr double kStamps = 1000, kStillParts = 10, kPair = 7, kSensors = 5, kLens = 4.5,
                  kContradiction = 4;
 
+// Time in which nearly all still parts of the image are found, once many are.
+constexpr int64_t kLearning_ns = 2'500'000'000;
+
 bool IsPowerOfTwo(int64_t count) { return (count & (count - 1)) == 0; }
 
 void ReleasePixels(TrackedFeatures* frame) {
@@ -187,7 +190,8 @@ void OdometryPipeline::AddImage(const RecordingEvent& event, cv::Mat image) {
 
 bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit) {
   still_parts_.Set(frame.points.features.t_ns, trackers_.StillPartsFinding());
-  if (trackers_.HasLearned()) return false;
+  if (trackers_.HasLearned() && !learned_ns_) learned_ns_ = frame.points.features.t_ns;
+  if (learned_ns_ && frame.points.features.t_ns - *learned_ns_ > kLearning_ns) return false;
   // The last power of two is in the second half of any run, whatever its length.
   if (IsPowerOfTwo(++tracked_images_)) {
     points_image_ = trackers_.DrawPoints();

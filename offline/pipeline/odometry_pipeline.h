@@ -141,7 +141,8 @@ class OdometryPipeline {
   int64_t images_ = 0;
   int64_t unreadable_images_ = 0;
   int64_t tracked_images_ = 0;
-  int64_t thinned_images_ = 0;  // skipped to reach the rate `freq`
+  std::optional<int64_t> learned_ns_;  // since when trackers know more than at first
+  int64_t thinned_images_ = 0;         // skipped to reach the rate `freq`
   int64_t estimated_images_ = 0;
   std::optional<int64_t> last_imu_ns_;  // last IMU timestamp of the previous frame
   FeatureFileWriter* saved_features_ = nullptr;

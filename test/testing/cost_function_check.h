@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -14,13 +15,18 @@
 
 namespace plm_vins::testing {
 
-// One parameter block: size 7 is a pose, 5 a line, all others a vector space.
+// One parameter block: size 7 is a pose, 5 with a unit quaternion a line, all others a vector
+// space.
 using Block = Eigen::VectorXd;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+inline bool IsLine(const Block& block) {
+  return block.size() == kLineSize && std::abs(block.head<4>().norm() - 1) < 1e-6;
+}
+
 inline int TangentSize(const Block& block) {
   if (block.size() == kPoseSize) return kPoseTangentSize;
-  if (block.size() == kLineSize) return kLineTangentSize;
+  if (IsLine(block)) return kLineTangentSize;
   return static_cast<int>(block.size());
 }
 
@@ -28,7 +34,7 @@ inline Block BlockPlus(const Block& block, const Eigen::VectorXd& delta) {
   Block moved = block;
   if (block.size() == kPoseSize) {
     PosePlus(block.data(), delta.data(), moved.data());
-  } else if (block.size() == kLineSize) {
+  } else if (IsLine(block)) {
     LinePlus(block.data(), delta.data(), moved.data());
   } else {
     moved += delta;

@@ -8,6 +8,7 @@
 #include "simulator/random.h"
 #include "test/vins_estimator/estimated_flight.h"
 #include "vins_estimator/estimator_options.h"
+#include "vins_estimator/geometry/depth_slopes.h"
 #include "vins_estimator/initialization/initializer.h"
 #include "vins_estimator/window_odometry.h"
 
@@ -193,9 +194,9 @@ TEST(EstimatorStereo, KnowsNoDepthAtRestIfTheSecondCameraDeliversNothing) {
   EXPECT_EQ(ImagesWithKnownDepth(flight, options.trajectory.rest), 0);
 }
 
-// Depths that are 6 % too long, and 30 ms late.
-TEST(EstimatorStereo, ReportsScaleAndDelayOfMeasuredDepths) {
-  constexpr double kScale = 1.06, kDelay = 0.03;
+// Returns what the estimator reports about depths that are too long by a factor, late, and read
+// beside the point.
+DepthFaults FaultsOfDepths(double scale, double delay, const Eigen::Vector2d& shift) {
   auto options = GentleFlight(1);
   options.sensors.imu_noise.accel_density = 0.01;
   options.sensors.depth.emplace();
@@ -204,14 +205,32 @@ TEST(EstimatorStereo, ReportsScaleAndDelayOfMeasuredDepths) {
     const FrameState& state = flight.truth[i];
     const Eigen::Matrix3d R_W_C = (state.T_W_B() * flight.sensor.cameras[0].T_B_C).R();
     const double approach = R_W_C.col(2).dot(state.velocity());
-    for (PointObservation& point : flight.frames[i].points.points) {
-      if (point.depth) *point.depth = kScale * (*point.depth + kDelay * approach);
+    PointFrame& frame = flight.frames[i].points;
+    const std::vector<Eigen::Vector2d> slopes = DepthSlopes(frame);
+    for (size_t k = 0; k < slopes.size(); ++k) {
+      PointObservation& point = frame.points[k];
+      if (!point.depth) continue;
+      const double beside = slopes[k].dot(shift + delay * point.velocity);
+      *point.depth = scale / (1 / (*point.depth + delay * approach) + beside);
     }
   }
-  const DepthFaults faults = testing::Estimate(flight).outputs.back().depth;
+  return testing::Estimate(flight).outputs.back().depth;
+}
+
+TEST(EstimatorStereo, ReportsScaleAndDelayOfMeasuredDepths) {
+  constexpr double kScale = 1.06, kDelay = 0.03;
+  const DepthFaults faults = FaultsOfDepths(kScale, kDelay, {0, 0});
   ASSERT_TRUE(faults.scale && faults.delay);
   EXPECT_NEAR(faults.scale->error, 0.06, 0.015);
   EXPECT_NEAR(*faults.delay, kDelay, 0.005);
+  EXPECT_FALSE(faults.misalignment);
+}
+
+TEST(EstimatorStereo, ReportsDepthsThatAreNotAlignedToTheCamera) {
+  const DepthFaults faults = FaultsOfDepths(1, 0, {0.02, 0});
+  EXPECT_FALSE(faults.delay);
+  ASSERT_TRUE(faults.misalignment);
+  EXPECT_GT(faults.misalignment->distance_px, 5 * faults.misalignment->deviation_px);
 }
 
 }  // namespace

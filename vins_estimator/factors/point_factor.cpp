@@ -58,8 +58,8 @@ bool DepthFactor::Evaluate(double const* const* parameters, double* residuals,
   const auto by_host = chain.SetJacobians<1>(
       PointDerivative<1>(0, 0, -weight_ * by_inverse * inverse * inverse), jacobians);
   if (double* jacobian = jacobians[stream_block]) {
-    const double by_delay = -scale * depth_.approach * inverse * inverse;
-    Eigen::Map<Eigen::RowVector2d>{jacobian} << -weight_ * expected, weight_ * by_delay;
+    Eigen::Map<Eigen::Matrix<double, 1, kDepthStreamSize>>{jacobian} =
+        weight_ * depth_.ByStream(inverse, stream);
   }
   if (jacobians[point_block]) SetPointJacobian<1>(by_host, point, jacobians[point_block]);
   return true;

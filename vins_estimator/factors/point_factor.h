@@ -89,7 +89,7 @@ class PointFactor final : public Factor {
 
 // The measured depth of a point along the axis of a camera that observes it:
 //   r = weight * ( TimedDepth::Expected(1 / z_Ct) - 1 / depth ).
-// Blocks: those of the chain T_Ct_Ch, depth stream (2), point (3). Evaluate() fails if the point is
+// Blocks: those of the chain T_Ct_Ch, depth stream (5), point (3). Evaluate() fails if the point is
 // behind the target camera.
 class DepthFactor final : public Factor {
  public:

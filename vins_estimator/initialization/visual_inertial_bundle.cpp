@@ -57,7 +57,7 @@ class Bundle {
   const std::vector<Preintegration>& preintegrations_;
   std::vector<FrameState>& states_;
   std::vector<FrameState> extrinsics_;  // as poses, by camera
-  std::array<double, kDepthStreamSize> depth_stream_ = {0, 0};
+  std::array<double, kDepthStreamSize> depth_stream_ = {};
   double time_offset_ = 0;
   std::vector<std::array<double, kPointSize>> points_;  // image point and inverse depth in the host
   ceres::CauchyLoss loss_{1.0};

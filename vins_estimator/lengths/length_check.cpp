@@ -115,6 +115,11 @@ void LengthCheck::Add(const FrameMeasurement& measurement) {
   if (is_complete) piece_.erase(piece_.begin(), piece_.end() - 1);
 }
 
+double LengthCheck::Doubt() const {
+  if (!is_open()) return 0;
+  return std::min({1.0, doubt_of_estimator_, std::hypot(ratio_.deviation, ratio_.log_ratio)});
+}
+
 void LengthCheck::Judge(const RatioCurve& curve) {
   const double scale_information = scale_information_ + scale_information_of_piece_;
   ratio_ = curve.Estimate(std::hypot(kAccelScaleDeviation, 1 / std::sqrt(scale_information)));
@@ -128,7 +133,8 @@ void LengthCheck::Judge(const RatioCurve& curve) {
 }
 
 void LengthCheck::Add(const LengthEvidence& log_ratio) {
-  if (is_known_ || is_wrong_ || ratio_.deviation > kRoughly) return;
+  doubt_of_estimator_ = std::hypot(log_ratio.error, log_ratio.deviation);
+  if (!log_ratio.IsSignificant() || is_known_ || is_wrong_ || ratio_.deviation > kRoughly) return;
   const double difference =
       (log_ratio.error - ratio_.log_ratio) / std::hypot(log_ratio.deviation, ratio_.deviation);
   if (std::abs(difference) > kAgree || std::abs(log_ratio.error) < kLargestError) return;

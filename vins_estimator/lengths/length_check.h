@@ -45,6 +45,11 @@ class LengthCheck {
   // Returns whether the length is wrong. This is final.
   bool is_wrong() const { return is_wrong_; }
 
+  // Returns the relative standard deviation of the length as far as this check or the estimator
+  // compared it with the IMU: at most one, and zero once nothing is left to compare, as the length
+  // fits or is not used.
+  double Doubt() const;
+
   // Returns whether the length is neither known well nor wrong.
   bool is_open() const { return !is_known_ && !is_wrong_; }
 
@@ -66,7 +71,8 @@ class LengthCheck {
   double scale_information_ = 0;  // of the depths in all pieces before
   double scale_information_of_piece_ = 0;
   double by_estimator_ = 0;  // contradiction that the estimator found
-  int contradictions_ = 0;   // consecutive judgements that rule the length out
+  double doubt_of_estimator_ = 1;
+  int contradictions_ = 0;  // consecutive judgements that rule the length out
   bool is_wrong_ = false, is_known_ = false;
 };
 

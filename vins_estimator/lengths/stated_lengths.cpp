@@ -82,6 +82,11 @@ bool StatedLengths::Add(const FrameMeasurement& measurement, const EstimatorRepo
     is_news |= check.is_wrong() && !was_wrong;
     is_open |= check.is_open();
   }
+  if (sensor_.depth && !unaligned_) {
+    unaligned_ = previous.depth.misalignment;
+    is_news |= unaligned_.has_value();
+    is_open = true;
+  }
   if (is_news) return true;
   if (!is_open) images_.clear();
   if (is_open) images_.push_back(measurement);
@@ -97,6 +102,10 @@ bool StatedLengths::IsDropped(int camera) const {
   });
 }
 
+bool StatedLengths::DropsDepth() const {
+  return sensor_.depth && (checks_.back().is_wrong() || unaligned_);
+}
+
 FrameMeasurement StatedLengths::Usable(FrameMeasurement measurement) const {
   for (int camera = 1; camera < static_cast<int>(sensor_.cameras.size()); ++camera) {
     if (!IsDropped(camera)) continue;
@@ -104,7 +113,7 @@ FrameMeasurement StatedLengths::Usable(FrameMeasurement measurement) const {
     if (measurement.lines) DropCamera(camera, &measurement.lines->lines);
   }
   if (!sensor_.depth) return measurement;
-  const double max = checks_.back().is_wrong() ? 0 : sensor_.depth->max;
+  const double max = DropsDepth() ? 0 : sensor_.depth->max;
   for (PointObservation& point : measurement.points.points) {
     if (point.depth && *point.depth > max) point.depth.reset();
   }
@@ -113,8 +122,8 @@ FrameMeasurement StatedLengths::Usable(FrameMeasurement measurement) const {
 
 Config StatedLengths::Usable(Config config) const {
   std::string pairs;
+  if (DropsDepth()) config.sensor.depth.reset();
   for (const LengthCheck& check : checks_) {
-    if (!check.pair() && check.is_wrong()) config.sensor.depth.reset();
     if (!check.pair() || check.is_wrong()) continue;
     if (!pairs.empty()) pairs += " ";
     pairs += Format("%d-%d", check.pair()->first, check.pair()->second);
@@ -151,11 +160,25 @@ std::string StatedLengths::Finding() const {
     if (!text.empty()) text += "; ";
     text += Describe(check);
   }
+  if (unaligned_ && !checks_.back().is_wrong()) {
+    if (!text.empty()) text += "; ";
+    text += "depth_topic " + sensor_.depth->topic +
+            Format(
+                ": by motion, depth images are not aligned to camera 0, by at least %.0f px, or "
+                "much older than their timestamps; they are not used",
+                unaligned_->distance_px);
+  }
   return text;
 }
 
-double StatedLengths::Contradiction() const {
+double StatedLengths::Doubt() const {
   double worst = 0;
+  for (const LengthCheck& check : checks_) worst = std::max(worst, check.Doubt());
+  return worst;
+}
+
+double StatedLengths::Contradiction() const {
+  double worst = unaligned_ ? unaligned_->distance_px / unaligned_->deviation_px : 0;
   for (const LengthCheck& check : checks_) {
     if (check.is_wrong()) worst = std::max(worst, check.contradiction());
   }

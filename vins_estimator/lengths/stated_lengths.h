@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,9 @@
 namespace plm_vins {
 
 // The lengths that a configuration states, baselines and the unit of depths, each with its check,
-// and what of the input and of the configuration may be used. Keeps the last images as long as a
-// length is in question, so that the estimate can be repeated without it.
+// and what of the input and of the configuration may be used. Depths that are not aligned to the
+// camera are not used either. Keeps the last images as long as a length is in question, so that the
+// estimate can be repeated without it.
 class StatedLengths {
  public:
   explicit StatedLengths(const Config& config);
@@ -36,15 +38,21 @@ class StatedLengths {
   // Describes the wrong lengths, with the keys and what to do; empty if there are none.
   std::string Finding() const;
 
+  // Returns the relative standard deviation of the least known of the lengths that are used. It is
+  // that of the scale of the estimate.
+  double Doubt() const;
+
   // Returns by how many standard deviations the worst of the wrong lengths is ruled out.
   double Contradiction() const;
 
  private:
   bool IsDropped(int camera) const;
+  bool DropsDepth() const;
   std::string Describe(const LengthCheck& check) const;
 
   const SensorConfig sensor_;
   std::vector<LengthCheck> checks_;
+  std::optional<Misalignment> unaligned_;  // of depths; final
   std::deque<FrameMeasurement> images_;
 };
 

@@ -17,7 +17,8 @@ namespace plm_vins {
 struct PointLandmark {
   struct Observation : ImageKey {
     TimedBearing bearing;
-    std::optional<double> depth = {};  // measured, along the optical axis [m]
+    std::optional<double> depth = {};                       // measured, along the optical axis [m]
+    Eigen::Vector2d depth_slope = Eigen::Vector2d::Zero();  // of the inverse depth (DepthSlopes)
 
     int CountMeasurements() const { return 1 + depth.has_value(); }
     void ForgetDepth() { depth.reset(); }

@@ -8,6 +8,7 @@
 
 #include "common/statistics.h"
 #include "vins_estimator/geometry/depth_limits.h"
+#include "vins_estimator/geometry/depth_slopes.h"
 #include "vins_estimator/geometry/point_triangulation.h"
 
 namespace plm_vins {
@@ -135,12 +136,20 @@ std::pair<int, bool> RemoveBadObservations(const Eigen::Vector3d& p_W, double ma
 bool ContradictsDepth(const Eigen::Vector3d& p_W, const PointLandmark::Observation& observation,
                       double max_error, const SlidingWindow& window) {
   const double z = (window.T_W_C(observation).Inverse() * p_W).z();
-  const TimedDepth measured = window.DepthIn(observation, *observation.depth);
+  const TimedDepth measured = MeasuredDepth(observation, window);
   const double expected = measured.Expected(1 / z, window.depth_stream.data());
   return !(std::abs(expected - 1 / measured.depth) <= max_error);
 }
 
 }  // namespace
+
+TimedDepth MeasuredDepth(const PointLandmark::Observation& observation,
+                         const SlidingWindow& window) {
+  const FrameState& state = window.StateAt(observation.t_ns);
+  const Eigen::Vector3d v_C = window.T_W_C(observation).rotation.conjugate() * state.velocity();
+  return {*observation.depth, v_C.z(), observation.depth_slope, observation.bearing.xy,
+          observation.bearing.velocity};
+}
 
 void MoveHost(const SlidingWindow& window, size_t observation, PointLandmark* landmark) {
   SetPosition(PositionInWorld(*landmark, window), window, landmark->observations[observation],
@@ -161,11 +170,15 @@ std::optional<double> ReprojectionError(const Eigen::Vector3d& p_W,
 }
 
 void PointMap::AddFrame(const PointFrame& frame, double cut_time_offset) {
-  for (const PointObservation& point : frame.points) {
+  const std::vector<Eigen::Vector2d> slopes = DepthSlopes(frame);
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    const PointObservation& point = frame.points[i];
     PointLandmark& landmark = landmarks_[point.id];
     landmark.id = point.id;
-    landmark.observations.push_back(
-        {{frame.t_ns, point.camera}, {point.xy, point.velocity, cut_time_offset}, point.depth});
+    landmark.observations.push_back({{frame.t_ns, point.camera},
+                                     {point.xy, point.velocity, cut_time_offset},
+                                     point.depth,
+                                     slopes[i]});
   }
 }
 

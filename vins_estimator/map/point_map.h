@@ -66,6 +66,10 @@ class PointMap : public LandmarkMap<PointLandmark> {
 // triangulated if it is behind that camera.
 void MoveHost(const SlidingWindow& window, size_t observation, PointLandmark* landmark);
 
+// Returns a measured depth with what its stream's calibration changes.
+TimedDepth MeasuredDepth(const PointLandmark::Observation& observation,
+                         const SlidingWindow& window);
+
 // Returns the position of a triangulated landmark in the world.
 Eigen::Vector3d PositionInWorld(const PointLandmark& landmark, const SlidingWindow& window);
 

@@ -49,11 +49,6 @@ FrameState& SlidingWindow::StateAt(int64_t t_ns) {
   return const_cast<FrameState&>(static_cast<const SlidingWindow*>(this)->StateAt(t_ns));
 }
 
-TimedDepth SlidingWindow::DepthIn(const ImageKey& image, double depth) const {
-  const FrameState& state = StateAt(image.t_ns);
-  return {depth, (T_W_C(image).rotation.conjugate() * state.velocity()).z()};
-}
-
 void SlidingWindow::SetStillSince(std::optional<int64_t> still_since_ns, double flow) {
   newest().stationary = still_since_ns.has_value();
   newest().flow_at_rest = flow;

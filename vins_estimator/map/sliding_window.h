@@ -52,10 +52,10 @@ struct WindowCamera {
 struct SlidingWindow {
   std::vector<WindowFrame> frames;
   std::vector<AnchorFrame> anchors;
-  std::vector<WindowCamera> cameras{WindowCamera()};           // by number; at least one
-  std::array<double, kDepthStreamSize> depth_stream = {0, 0};  // see geometry/depth_stream.h
-  double td = 0;                                               // t_imu = t_image + td [s]
-  Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);    // [m/s^2]
+  std::vector<WindowCamera> cameras{WindowCamera()};         // by number; at least one
+  std::array<double, kDepthStreamSize> depth_stream = {};    // see geometry/depth_stream.h
+  double td = 0;                                             // t_imu = t_image + td [s]
+  Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  // [m/s^2]
 
   WindowFrame& newest() { return frames.back(); }
   const WindowFrame& newest() const { return frames.back(); }
@@ -77,9 +77,6 @@ struct SlidingWindow {
   Rigid3d T_W_C(const ImageKey& image) const {
     return StateAt(image.t_ns).T_W_B() * cameras[image.camera].T_B_C();
   }
-
-  // Returns a depth that was measured in an image, with the velocity of the camera.
-  TimedDepth DepthIn(const ImageKey& image, double depth) const;
 
   // Sets when standstill began, up to the newest frame, which was just added; nullopt if moving.
   // May reclassify the previous frame as stationary. `flow` is that of all corners since then,

@@ -37,7 +37,7 @@ void Add(const CameraFaults& faults, std::string* text) {
   if (const auto& delay = faults.delay) {
     Add(camera + Format("it exposes %+.0f ms after camera 0", 1e3 * *delay), text);
   }
-  if (const auto& baseline = faults.baseline) {
+  if (const auto& baseline = faults.baseline; baseline && baseline->IsSignificant()) {
     Add(camera + Format("according to the IMU, its baseline is %.1f +- %.1f %% %s than configured",
                         100 * std::abs(baseline->error), 100 * baseline->deviation,
                         baseline->error > 0 ? "longer" : "shorter"),
@@ -78,7 +78,7 @@ std::string DescribeContradiction(const ContradictionEvidence& evidence) {
 std::string DescribeFaults(const std::vector<CameraFaults>& cameras, const DepthFaults& depth) {
   std::string text;
   for (const CameraFaults& camera : cameras) Add(camera, &text);
-  if (const auto& scale = depth.scale) {
+  if (const auto& scale = depth.scale; scale && scale->IsSignificant()) {
     Add(Format("depth_topic: according to the IMU, depths are %.1f +- %.1f %% too %s",
                100 * std::abs(scale->error), 100 * scale->deviation,
                scale->error > 0 ? "long" : "short"),

@@ -78,6 +78,12 @@ std::string RunReport::DescribeTimeWithoutPose(double lead) const {
   return text;
 }
 
+std::string RunReport::WhyOftenWithoutPose() const {
+  double without = 0;
+  for (const auto& [reason, time] : without_pose_) without += time;
+  return 2 * without < elapsed_ || without == 0 ? "" : LongestFirst().front();
+}
+
 std::vector<std::string> RunReport::LongestFirst() const {
   std::vector<std::string> reasons;
   for (const auto& [reason, time] : without_pose_) {

@@ -25,6 +25,10 @@ class RunReport {
   // Returns why the newest world frame replaced another; empty if there was only one.
   std::string LastRestart() const { return worlds_.size() > 1 ? worlds_.back().reason : ""; }
 
+  // Returns the most frequent reason if at least half of the time has no pose; otherwise an empty
+  // string.
+  std::string WhyOftenWithoutPose() const;
+
  private:
   struct World {
     double begin = 0;    // first pose, since the first output [s]

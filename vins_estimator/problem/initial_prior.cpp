@@ -105,7 +105,10 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
   }
   if (options.estimate_depth_stream) {
     prior.Add({BlockKind::kDepthStream, 0}, window.depth_stream.data(),
-              Sigmas({{1, uncertainty.depth_scale}, {1, uncertainty.depth_delay}}));
+              Sigmas({{1, uncertainty.depth_scale},
+                      {1, uncertainty.depth_delay},
+                      {2, uncertainty.depth_shift},
+                      {1, uncertainty.depth_zoom}}));
   }
   if (options.estimate_td) {
     prior.Add({BlockKind::kTimeOffset, 0}, &window.td, Sigmas({{1, uncertainty.td}}));

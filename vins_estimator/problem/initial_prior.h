@@ -25,7 +25,9 @@ struct InitialUncertainty {
   double extrinsic_rotation = 0.02;           // of the first camera [rad]
   double td = 0.01;                           // [s]
   double depth_scale = kDepthScaleDeviation;  // relative
-  double depth_delay = 0.01;                  // [s]
+  double depth_delay = 0.02;                  // [s]
+  double depth_shift = 0.01;                  // normalized
+  double depth_zoom = 0.02;                   // relative
   IntrinsicsDeviation intrinsics;
 };
 

@@ -111,8 +111,7 @@ void ObservationTerms::AddDepth(const ProblemPoint& point,
                                 const PointLandmark::Observation& observation) {
   if (!observation.depth) return;
   const DepthFactor factor(KindOf(point.landmark->host(), observation),
-                           window_->DepthIn(observation, *observation.depth),
-                           options_->depth_weight);
+                           MeasuredDepth(observation, *window_), options_->depth_weight);
   AddTerm(point.eliminated, factor, &depth_loss_,
           VariablesOf(point, observation, {variables_->DepthStream(), point.variable}));
 }

@@ -117,7 +117,9 @@ bool RotationCheck::FindGrossError(const Eigen::Quaterniond& R_B_C) {
   const auto mounting = ExplainByMounting(pairs_, R_B_C);
   if (mounting) mounting_ = mounting;
   std::string reason;
-  const auto calibrated = CalibrateExtrinsicRotation(pairs_, ExtrinsicRotationOptions(), &reason);
+  ExtrinsicRotationOptions options;
+  options.max_deviation = kMaxExtrinsicsError / kSigmas;
+  const auto calibrated = CalibrateExtrinsicRotation(pairs_, options, &reason);
   const double error = calibrated ? calibrated->angularDistance(R_B_C)
                        : mounting ? std::abs(mounting->angle)
                                   : 0;
@@ -148,7 +150,10 @@ void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
   mounting_.reset();
   finding_ = {};
   if (!IsRefined(fit)) {
-    finding_ = {Describe(fit), kSigmas * std::abs(fit.amount) / LeastAmount(fit.cause)};
+    const std::string text = Describe(fit);
+    const bool is_of_further = camera_ > 0 && !text.empty();
+    finding_ = {is_of_further ? Format("camera %d: ", camera_) + text : text,
+                kSigmas * std::abs(fit.amount) / LeastAmount(fit.cause)};
   }
 }
 

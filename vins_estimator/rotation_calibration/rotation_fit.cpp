@@ -5,7 +5,6 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include "common/geometry/robust_weight.h"
 #include "common/geometry/so3.h"
@@ -16,16 +15,18 @@ namespace {
 
 using Cause = RotationFit::Cause;
 
-constexpr size_t kMinPairs = 70;       // in doubt, ten per second
-constexpr double kMinMeanTurn = 0.03;  // root mean square of the rotations [rad]
-constexpr double kMinExplained = 0.2;  // share of the squared differences
-constexpr double kAgreement = 0.005;   // root mean square of the differences [rad]
-constexpr double kOverlap = 3;         // pairs of 0.3 s may begin every 0.1 s: a third is new
+constexpr size_t kMinPairs = 40;           // in doubt, ten per second
+constexpr double kMinMeanTurn = 0.03;      // root mean square of the rotations [rad]
+constexpr double kMinExplained = 0.2;      // share of the squared differences
+constexpr double kAgreement = 0.005;       // root mean square of the differences [rad]
+constexpr double kAgreementByTurn = 0.03;  // relative to that of the rotations
+constexpr double kOverlap = 3;             // pairs of 0.3 s may begin every 0.1 s: a third is new
 constexpr int kReweighings = 5;
 constexpr double kRobustSigmas = 3;
 
 // Columns of the Jacobian with respect to all parameters.
-constexpr int kBias = 0, kDelay = 3, kFocal = 4, kExtrinsics = 5, kGyro = 8, kColumns = 17;
+constexpr int kBias = 0, kDelay = 3, kFocal = 4, kExtrinsics = 5, kGyro = 8, kScales = 17,
+              kScale = 20, kColumns = 21;
 
 struct Bounds {
   double min, max;
@@ -44,24 +45,17 @@ Bounds Limits(Cause cause) {
   }
 }
 
-struct Columns {
+// A cause with the columns of its parameters. Those of a gyroscope are all of its scales and axes,
+// the scales alone, or one scale, of which the fewest that suffice are the most likely.
+struct Model {
+  Cause cause;
   int first, count;
 };
 
-Columns ColumnsOf(Cause cause) {
-  switch (cause) {
-    case Cause::kTimeOffset:
-      return {kDelay, 1};
-    case Cause::kFocalLength:
-      return {kFocal, 1};
-    case Cause::kExtrinsics:
-      return {kExtrinsics, 3};
-    case Cause::kGyro:
-      return {kGyro, 9};
-    default:
-      return {kBias, 0};
-  }
-}
+constexpr Model kNoError{Cause::kNone, kBias, 0}, kWholeGyro{Cause::kGyro, kGyro, 9};
+constexpr Model kModels[] = {{Cause::kTimeOffset, kDelay, 1},      {Cause::kFocalLength, kFocal, 1},
+                             {Cause::kExtrinsics, kExtrinsics, 3}, kWholeGyro,
+                             {Cause::kGyro, kScales, 3},           {Cause::kGyro, kScale, 1}};
 
 // Differences phi_C - phi_G of the rotations in B, three rows per pair, and their Jacobian.
 struct Equations {
@@ -86,6 +80,8 @@ Equations Linearize(const std::vector<RotationPair>& pairs, const Eigen::Quatern
     rows.col(kFocal) = -across * turn;
     rows.middleCols<3>(kExtrinsics) = -Skew(turn);
     for (int k = 0; k < 3; ++k) rows.middleCols<3>(kGyro + 3 * k).diagonal().setConstant(-turn[k]);
+    rows.middleCols<3>(kScales).diagonal() = -turn;
+    rows.col(kScale) = -turn;
     equations.mean_squared_turn += turn.squaredNorm() / static_cast<double>(count);
   }
   return equations;
@@ -98,15 +94,14 @@ struct Fit {
   double squares = 0;  // weighted sum
 };
 
-Fit Solve(const Equations& equations, const Eigen::VectorXd& weights, Cause cause) {
-  const Columns columns = ColumnsOf(cause);
-  Eigen::MatrixXd J(equations.J.rows(), 3 + columns.count);
-  J << equations.J.middleCols(kBias, 3), equations.J.middleCols(columns.first, columns.count);
+Fit Solve(const Equations& equations, const Eigen::VectorXd& weights, const Model& model) {
+  Eigen::MatrixXd J(equations.J.rows(), 3 + model.count);
+  J << equations.J.middleCols(kBias, 3), equations.J.middleCols(model.first, model.count);
   Eigen::MatrixXd H = J.transpose() * weights.asDiagonal() * J;
   H.diagonal().array() += 1e-9 * H.diagonal().maxCoeff();  // turns may be about one axis
   const Eigen::VectorXd x =
       H.ldlt().solve(J.transpose() * weights.cwiseProduct(equations.differences));
-  Fit fit{x.tail(columns.count), equations.differences - J * x};
+  Fit fit{x.tail(model.count), equations.differences - J * x};
   fit.squares = weights.dot(fit.residuals.cwiseAbs2());
   return fit;
 }
@@ -115,7 +110,7 @@ Fit Solve(const Equations& equations, const Eigen::VectorXd& weights, Cause caus
 Eigen::VectorXd Weights(const Equations& equations) {
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(equations.differences.size());
   for (int k = 0; k < kReweighings; ++k) {
-    const Eigen::VectorXd residuals = Solve(equations, weights, Cause::kGyro).residuals;
+    const Eigen::VectorXd residuals = Solve(equations, weights, kWholeGyro).residuals;
     std::vector<double> sizes(residuals.data(), residuals.data() + residuals.size());
     for (double& size : sizes) size = std::abs(size);
     const double scale = kRobustSigmas * std::max(1e-6, 1.48 * Median(sizes));
@@ -129,6 +124,7 @@ Eigen::VectorXd Weights(const Equations& equations) {
 double Amount(Cause cause, const Eigen::VectorXd& parameters) {
   if (cause == Cause::kTimeOffset || cause == Cause::kFocalLength) return parameters[0];
   if (cause == Cause::kExtrinsics) return parameters.norm();
+  if (parameters.size() < 9) return parameters.cwiseAbs().maxCoeff();
   return Eigen::Map<const Eigen::Matrix3d>(parameters.data()).jacobiSvd().singularValues()[0];
 }
 
@@ -142,17 +138,18 @@ RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
   const Equations equations = Linearize(pairs, R_B_C);
   if (equations.mean_squared_turn < kMinMeanTurn * kMinMeanTurn) return {};
   const Eigen::VectorXd weights = Weights(equations);
-  const double squares = Solve(equations, weights, Cause::kNone).squares;
+  const double squares = Solve(equations, weights, kNoError).squares;
   const double count = weights.sum() / kOverlap;
-  const bool agree = squares < kAgreement * kAgreement * weights.sum();
+  const double most =
+      std::min(kAgreement, kAgreementByTurn * std::sqrt(equations.mean_squared_turn));
+  const bool agree = squares < most * most * weights.sum();
   const RotationFit without{agree ? Cause::kNone : Cause::kUnknown};
   RotationFit best = without;
   double best_criterion = count * std::log(squares);
-  for (const Cause cause :
-       {Cause::kTimeOffset, Cause::kFocalLength, Cause::kExtrinsics, Cause::kGyro}) {
-    const Fit fit = Solve(equations, weights, cause);
-    const double criterion =
-        count * std::log(fit.squares) + std::log(count) * ColumnsOf(cause).count;
+  for (const Model& model : kModels) {
+    const Cause cause = model.cause;
+    const Fit fit = Solve(equations, weights, model);
+    const double criterion = count * std::log(fit.squares) + std::log(count) * model.count;
     if (criterion >= best_criterion) continue;
     best_criterion = criterion;
     const double amount = Amount(cause, fit.parameters);

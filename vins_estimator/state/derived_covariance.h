@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "common/geometry/so3.h"
+#include "vins_estimator/state/estimator_output.h"
 #include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {
@@ -30,6 +31,15 @@ inline Eigen::Matrix3d BodyVelocityCovariance(const FrameState& state,
   Eigen::Matrix<double, 3, 6> J;
   J << Skew(R_B_W * state.velocity()), R_B_W;
   return J * covariance * J.transpose();
+}
+
+// Adds a relative deviation of the scale, which moves all positions relative to the origin of W.
+inline void AddScaleDeviation(double deviation, const FrameState& state, StateUncertainty* known) {
+  const Eigen::Vector3d p_W = deviation * state.position(), v_W = deviation * state.velocity();
+  const Eigen::Vector3d v_B = state.rotation().conjugate() * v_W;
+  known->pose.topLeftCorner<3, 3>() += p_W * p_W.transpose();
+  known->velocity += v_W * v_W.transpose();
+  known->body_velocity += v_B * v_B.transpose();
 }
 
 }  // namespace plm_vins

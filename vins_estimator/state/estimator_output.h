@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -56,6 +57,9 @@ inline const char* ToString(EstimatorStatus status) {
 struct LengthEvidence {
   double error = 0;
   double deviation = 0;
+
+  // Returns whether an error is too large and too certain to be left unreported.
+  bool IsSignificant() const { return std::abs(error) > 5 * deviation; }
 };
 
 // Faults of a camera other than the first that its residuals show.
@@ -63,13 +67,21 @@ struct CameraFaults {
   int camera = 0;
   std::optional<double> misfit_px;  // median residual, if it is too large for the camera to be used
   std::optional<double> delay;      // exposure later than that of the first camera [s]
-  std::optional<LengthEvidence> baseline;  // to an overlapping camera, if it is significant
+  std::optional<LengthEvidence> baseline;  // to an overlapping camera
+};
+
+// Distance in the image by which depth images are not aligned to the camera, at its axis or half a
+// focal length beside it, and its standard deviation [px].
+struct Misalignment {
+  double distance_px = 0;
+  double deviation_px = 0;
 };
 
 // Faults of measured depths that motion and IMU show.
 struct DepthFaults {
-  std::optional<LengthEvidence> scale;  // if it is significant
-  std::optional<double> delay;          // by which they are older than their timestamps [s]
+  std::optional<LengthEvidence> scale;
+  std::optional<double> delay;  // by which they are older than their timestamps [s]
+  std::optional<Misalignment> misalignment;
 };
 
 // Processing time of the stages of one frame [ms].

@@ -17,14 +17,11 @@ namespace plm_vins {
 // and of the evidence, weighted by their information. Returns nullopt without evidence.
 std::optional<LengthEvidence> WithoutPrior(double estimate, double variance, double prior);
 
-// Returns whether an error is too large and too certain to be left unreported.
-bool IsSignificant(const LengthEvidence& evidence);
-
-// Both return what is significant, given the window's equations at their last linearization:
-// the error of the configured baseline of a stereo pair, and what is wrong with the
-// measured depths.
+// Both use the window's equations at their last linearization: the error of the configured baseline
+// of a stereo pair, and what is wrong with the measured depths.
 std::optional<LengthEvidence> BaselineError(const ExtrinsicsLink& pair, const SlidingWindow& window,
                                             NormalEquations* equations);
-DepthFaults FaultsOfDepths(const SlidingWindow& window, NormalEquations* equations);
+DepthFaults FaultsOfDepths(const SlidingWindow& window, double focal_length,
+                           NormalEquations* equations);
 
 }  // namespace plm_vins

@@ -61,6 +61,22 @@ TEST(StatedLengths, LeaveOutDepthsOfAnotherUnit) {
   EXPECT_GT(lengths.Contradiction(), 5);
 }
 
+TEST(StatedLengths, LeaveOutDepthsThatAreNotAligned) {
+  const auto flight = FlyWithDepth(1);
+  const Config config = testing::ConfigFor(flight);
+  StatedLengths lengths(config);
+  EXPECT_FALSE(lengths.Add(flight.frames[0]));
+  EstimatorReport report;
+  report.depth.misalignment = {6, 0.5};
+  EXPECT_TRUE(lengths.Add(flight.frames[1], report));
+  EXPECT_EQ(lengths.images().size(), 1) << "all before, from which to repeat";
+  EXPECT_FALSE(lengths.Add(flight.frames[2], report)) << "no news";
+  EXPECT_FALSE(HasDepth(lengths.Usable(flight.frames[2])));
+  EXPECT_FALSE(lengths.Usable(config).sensor.depth);
+  EXPECT_THAT(lengths.Finding(), HasSubstr("not aligned to camera 0, by at least 6 px"));
+  EXPECT_DOUBLE_EQ(lengths.Contradiction(), 12);
+}
+
 TEST(StatedLengths, LeaveOutDepthsBeyondTheLargest) {
   auto flight = FlyWithDepth(1);
   flight.sensor.depth->max = 2;

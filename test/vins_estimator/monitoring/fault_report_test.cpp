@@ -81,12 +81,12 @@ TEST(SensorReport, NamesAllFaults) {
   CameraFaults late;
   late.camera = 1;
   late.delay = 0.0123;
-  late.baseline = LengthEvidence{-0.0101, 0.0021};
+  late.baseline = LengthEvidence{-0.0101, 0.0020};
   CameraFaults misfit;
   misfit.camera = 2;
   misfit.misfit_px = 7.04;
   DepthFaults depth;
-  depth.scale = LengthEvidence{0.0195, 0.004};
+  depth.scale = LengthEvidence{0.0195, 0.0038};
   depth.delay = 0.0302;
   EXPECT_EQ(DescribeFaults({late, misfit}, depth),
             "camera 1: it exposes +12 ms after camera 0; camera 1: according to the IMU, its "

@@ -68,6 +68,15 @@ TEST_F(RunReportTest, StatesReasonsOfNewWorldsAndMissingPoses) {
   EXPECT_EQ(report_.LastRestart(), "velocity is 60 m/s");
 }
 
+TEST_F(RunReportTest, SaysWhyThereIsOftenNoPose) {
+  EXPECT_THAT(report_.WhyOftenWithoutPose(), IsEmpty());
+  Until(1, Without("collecting images: 0.1 s of 1.5 s"));
+  Until(3, Pose());
+  EXPECT_THAT(report_.WhyOftenWithoutPose(), IsEmpty());
+  Until(6, Without("the estimated scale is negative: check the signs"));
+  EXPECT_EQ(report_.WhyOftenWithoutPose(), "the estimated scale is negative");
+}
+
 TEST_F(RunReportTest, WithoutAnyPoseHasNoWorld) {
   EXPECT_THAT(report_.Lines(std::nullopt), IsEmpty());
   Until(1, Without("too little parallax: 1 px of 15 px"));

@@ -96,16 +96,18 @@ TEST(InitialPrior, HoldsTheIntrinsicsOfEachCamera) {
                      covariance.diagonal().segment<kIntrinsicsSize>(15), 1e-12);
 }
 
-TEST(InitialPrior, HoldsScaleAndDelayOfADepthStream) {
+TEST(InitialPrior, HoldsTheCalibrationOfADepthStream) {
   const SimulatedWindow simulated = testing::SimulateWindow(2);
   ProblemOptions options = testing::OnePixelOptions();
   options.estimate_depth_stream = true;
   const InitialUncertainty uncertainty;
   const MatrixXd covariance =
       InitialPrior(uncertainty, options, simulated.window).quadratic().H.inverse();
-  ASSERT_EQ(covariance.rows(), 17);
+  ASSERT_EQ(covariance.rows(), 15 + kDepthStreamSize);
   EXPECT_NEAR(std::sqrt(covariance(15, 15)), uncertainty.depth_scale, 1e-9);
   EXPECT_NEAR(std::sqrt(covariance(16, 16)), uncertainty.depth_delay, 1e-9);
+  EXPECT_NEAR(std::sqrt(covariance(18, 18)), uncertainty.depth_shift, 1e-9);
+  EXPECT_NEAR(std::sqrt(covariance(19, 19)), uncertainty.depth_zoom, 1e-9);
 }
 
 }  // namespace

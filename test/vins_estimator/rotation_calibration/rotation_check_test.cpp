@@ -58,6 +58,20 @@ TEST(RotationCheck, NamesAWrongFocalLength) {
   EXPECT_EQ(Check(flight).rfind("the focal length is wrong by about +", 0), 0u) << Check(flight);
 }
 
+TEST(RotationCheck, NamesTheCameraOfAWrongFocalLength) {
+  SimulatedFlight flight = Fly(2, simulator::Motion::kPureRotation);
+  flight.sensor.cameras.push_back(flight.sensor.cameras[0]);
+  RotationCheck check(flight.sensor, 1, 0.5);
+  for (FrameMeasurement& frame : flight.frames) {
+    for (PointObservation& point : frame.points.points) {
+      point.xy /= 1.06;
+      point.camera = 1;
+    }
+    check.Add(frame, /*in_doubt=*/true);
+  }
+  EXPECT_THAT(check.finding(), StartsWith("camera 1: the focal length is wrong by about +"));
+}
+
 // In translation, too, which a relative pose would trade for the error.
 TEST(RotationCheck, NamesTheFocalLengthOfAnotherResolution) {
   for (const double factor : {1.25, 0.8}) {
@@ -93,6 +107,8 @@ TEST(RotationCheck, NamesAGyroWithWrongScales) {
   }
   EXPECT_EQ(Check(flight).rfind("scale or axes of the gyro are wrong by up to ", 0), 0u)
       << Check(flight);
+  flight.frames.resize(static_cast<size_t>(5.5 / 0.05));
+  EXPECT_THAT(Check(flight), StartsWith("scale or axes of the gyro are wrong by up to "));
 }
 
 }  // namespace

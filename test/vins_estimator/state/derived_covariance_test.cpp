@@ -58,6 +58,17 @@ TEST(DerivedCovariance, BodyVelocityCovarianceMatchesErrors) {
                      1e-6);
 }
 
+TEST(DerivedCovariance, AnUnknownScaleMovesPositionsAndVelocities) {
+  const FrameState state = SomeState({3, 4, 0});
+  StateUncertainty known = {Matrix6d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(),
+                            Matrix6d::Zero()};
+  AddScaleDeviation(0.1, state, &known);
+  EXPECT_NEAR(std::sqrt(known.pose.trace()), 0.5, 1e-12);
+  EXPECT_NEAR(std::sqrt(known.velocity.trace()), 0.1 * state.velocity().norm(), 1e-12);
+  const Vector3d v_B = 0.1 * (state.rotation().conjugate() * state.velocity());
+  EXPECT_MATRIX_NEAR(known.body_velocity, v_B * v_B.transpose(), 1e-12);
+}
+
 TEST(DerivedCovariance, AnUnknownHeadingDoesNotBlurTheBodyVelocity) {
   const FrameState state = SomeState({0, 0, 0});
   Vector6d error;  // of a world rotation

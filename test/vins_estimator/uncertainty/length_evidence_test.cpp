@@ -29,8 +29,8 @@ TEST(LengthEvidence, DoesNotExistWhereThePriorAloneDecides) {
 }
 
 TEST(LengthEvidence, IsSignificantBeyondFiveStandardDeviations) {
-  EXPECT_FALSE(IsSignificant({0.0149, 0.003}));
-  EXPECT_TRUE(IsSignificant({-0.0151, 0.003}));
+  EXPECT_FALSE((LengthEvidence{0.0149, 0.003}.IsSignificant()));
+  EXPECT_TRUE((LengthEvidence{-0.0151, 0.003}.IsSignificant()));
 }
 
 }  // namespace

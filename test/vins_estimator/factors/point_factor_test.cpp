@@ -15,10 +15,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using testing::Block;
 using testing::FactorScene;
+using testing::Joined;
 using testing::ScalarBlock;
 
 std::vector<Block> Blocks(const FactorScene& scene, double td) {
-  return testing::Joined(scene.Poses(), {ScalarBlock(td), scene.Point()});
+  return Joined(scene.Poses(), {ScalarBlock(td), scene.Point()});
 }
 
 TEST(PointFactor, IsTheWeightedReprojectionError) {
@@ -48,8 +49,6 @@ TEST(PointFactor, RejectsPointsThatAreNotInFrontOfTheTarget) {
   Vector2d residual;
   EXPECT_FALSE(factor.Evaluate(testing::Pointers(blocks).data(), residual.data(), nullptr));
 }
-
-using testing::Joined;
 
 TEST(DepthFactor, ComparesInverseDepths) {
   const Block exact = DepthStream::Zero();

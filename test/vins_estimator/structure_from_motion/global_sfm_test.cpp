@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "common/geometry/so3.h"
-#include "common/median.h"
+#include "common/statistics.h"
 #include "simulator/random.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 

@@ -45,9 +45,9 @@ std::string WorstDrop(const RunSummary::Run& run, const Source& source) {
 // Returns the most important problem of a run; empty if there was none.
 std::string MostWrong(const RunSummary::Run& run, const Source& source, const RunReport& report) {
   if (!run.findings.empty()) return run.findings.front();
-  const std::string restart = report.LastRestart();
+  std::string restart = report.LastRestart();
   if (!restart.empty()) return restart;
-  const std::string drop = WorstDrop(run, source);
+  std::string drop = WorstDrop(run, source);
   return drop.empty() ? report.WhyOftenWithoutPose() : drop;
 }
 

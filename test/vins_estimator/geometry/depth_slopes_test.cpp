@@ -12,9 +12,10 @@ namespace {
 PointFrame SeePlane(const Eigen::Vector2d& slope) {
   PointFrame frame;
   for (int i = 0; i < 100; ++i) {
+    const int row = i / 10, column = i % 10;
     PointObservation point;
     point.id = i;
-    point.xy = {0.1 * (i % 10) - 0.45, 0.1 * (i / 10) - 0.45};
+    point.xy = {0.1 * column - 0.45, 0.1 * row - 0.45};
     point.depth = 1 / (0.25 + slope.dot(point.xy));
     frame.points.push_back(point);
   }

@@ -22,7 +22,7 @@ R_B_C = np.array([[0, 0, 1], [-1, 0, 0], [0, -1, 0]])
 P_B_C0, P_B_C1 = [0.05, 0.03, 0.02], [0.05, -0.07, 0.02]
 MONO, STEREO, DEPTH = "one camera", "stereo", "depth"
 LENS = {"fx": 240.0, "fy": 240.0, "k1": 0.0, "k2": 0.0}
-FLIGHTS = {"gentle": "room", "fast": "room", "gentle in a hall": "hall"}
+FLIGHTS = {"gentle": "room", "fast": "room", "gentle in a corridor": "corridor"}
 
 
 def turned(axis, degrees):

@@ -139,7 +139,7 @@ void LengthCheck::Add(const LengthEvidence& log_ratio) {
       (log_ratio.error - ratio_.log_ratio) / std::hypot(log_ratio.deviation, ratio_.deviation);
   if (std::abs(difference) > kAgree || std::abs(log_ratio.error) < kLargestError) return;
   by_estimator_ = std::abs(log_ratio.error) / log_ratio.deviation;
-  is_wrong_ = by_estimator_ > kWrong;
+  is_wrong_ = true;
 }
 
 // Drops the beginning of a long standstill. Returns whether it still lasts.

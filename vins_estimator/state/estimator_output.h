@@ -52,6 +52,9 @@ inline const char* ToString(EstimatorStatus status) {
   }
 }
 
+// Standard deviations from which an error is certain enough to be reported.
+constexpr double kMinSignificance = 5.0;
+
 // Error of a stated length by the evidence of motion and IMU, and its standard deviation; both
 // logarithmic, so relative.
 struct LengthEvidence {
@@ -59,7 +62,7 @@ struct LengthEvidence {
   double deviation = 0;
 
   // Returns whether an error is too large and too certain to be left unreported.
-  bool IsSignificant() const { return std::abs(error) > 5 * deviation; }
+  bool IsSignificant() const { return std::abs(error) > kMinSignificance * deviation; }
 };
 
 // Faults of a camera other than the first that its residuals show.

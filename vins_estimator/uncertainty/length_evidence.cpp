@@ -12,9 +12,8 @@ namespace plm_vins {
 namespace {
 
 constexpr int kDepthScale = 0, kDepthDelay = 1, kDepthShift = 2;  // indices in a depth stream
-constexpr double kMaxDeviation = 0.05;    // relative; evidence is ignored beyond it
-constexpr double kMinSignificance = 5.0;  // in standard deviations
-constexpr double kMinDelay = 0.005;       // [s]
+constexpr double kMaxDeviation = 0.05;  // relative; evidence is ignored beyond it
+constexpr double kMinDelay = 0.005;     // [s]
 // Least misalignment that matters, normalized, and where it is judged beside the axis. The slopes
 // of scenes with edges show a third to a half of the true one.
 constexpr double kMinMisalignment = 0.005, kBesideAxis = 0.5;

@@ -5,12 +5,20 @@
 
 namespace plm_vins {
 
-// Returns A^-1 B for a symmetric, positive or negative semidefinite A. Eigen's LDLT of each size
-// takes a compiler seconds in every source that uses it, so symmetric_system.cpp instantiates it
-// for all: one column for sizes 3 to 6, as many columns as rows for sizes 3, 4 and 6.
+// Up to 6 rows and columns, without heap memory.
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+
+// Returns A^-1 B for a symmetric, positive or negative semidefinite A. Eigen's LDLT takes a
+// compiler seconds for each size in every source that uses it, so that of SmallMatrix solves all.
+SmallMatrix SolveSmallSymmetric(const SmallMatrix& A, const SmallMatrix& B);
+
+// Returns A^-1 B like SolveSmallSymmetric(), with fixed sizes.
 template <int kSize, int kColumns>
 Eigen::Matrix<double, kSize, kColumns> SolveSymmetric(
-    const Eigen::Matrix<double, kSize, kSize>& A, const Eigen::Matrix<double, kSize, kColumns>& B);
+    const Eigen::Matrix<double, kSize, kSize>& A, const Eigen::Matrix<double, kSize, kColumns>& B) {
+  static_assert(kSize <= 6 && kColumns <= 6);
+  return SolveSmallSymmetric(A, B);
+}
 
 template <int kSize>
 Eigen::Matrix<double, kSize, kSize> InverseOfSymmetric(

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/geometry/depth_slopes.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
+
+#include "common/geometry/symmetric_system.h"
 
 namespace plm_vins {
 namespace {
@@ -36,7 +37,7 @@ Eigen::Vector2d SlopeAt(const PointObservation& at, const PointFrame& frame) {
   const double least =
       0.5 * (scatter.trace() - std::hypot(scatter(0, 0) - scatter(1, 1), 2 * scatter(0, 1)));
   if (least < kLeastSpread * kLeastSpread) return Eigen::Vector2d::Zero();
-  const Eigen::Vector3d plane = squares.ldlt().solve(products);
+  const Eigen::Vector3d plane = SolveSymmetric(squares, products);
   const double distance = sum - plane.dot(products);
   if (distance > std::pow(kFlat / *at.depth, 2) * (count - 3)) return Eigen::Vector2d::Zero();
   return plane.head<2>();

@@ -100,12 +100,26 @@ bool Flatten(const YAML::Node& map, const std::string& prefix, int depth, const 
   return true;
 }
 
+bool IsByKalibr(const YAML::Node& root) {
+  for (const char* key : {"cam0", "imu0", "accelerometer_noise_density", "relative_config_imu"}) {
+    if (root[key]) return true;
+  }
+  return false;
+}
+
 std::optional<YAML::Node> ParseRoot(const std::string& file, const std::string& text,
                                     std::vector<std::string>* problems) {
   try {
     const YAML::Node root = ParseYamlDocument(text);
-    if (root.IsMap()) return root;
-    problems->push_back(file + ": has no \"key: value\" lines; is this a configuration file?");
+    if (!root.IsMap()) {
+      problems->push_back(file + ": has no \"key: value\" lines; is this a configuration file?");
+    } else if (IsByKalibr(root)) {
+      problems->push_back(file +
+                          ": is a file of Kalibr or OpenVINS; convert it with "
+                          "kalibr_to_config.py");
+    } else {
+      return root;
+    }
   } catch (const YAML::Exception& error) {
     problems->push_back(Location(file, error.mark) + ": not valid YAML: " + error.msg +
                         "; check this line and the one before it: indentation by spaces, alike in "

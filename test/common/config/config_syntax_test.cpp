@@ -35,6 +35,18 @@ TEST_F(ConfigSyntax, ACommaInPlaceOfAKeyIsRejected) {
                    {"camera.yaml:3: not valid YAML: a key or value is missing"});
 }
 
+TEST_F(ConfigSyntax, FilesOfKalibrAreToBeConverted) {
+  const std::string noise = "rostopic: /imu0\naccelerometer_noise_density: 0.01\n";
+  const std::string nested = "imu0:\n  accelerometers:\n    M: [1]\n";
+  for (const std::string& text :
+       {std::string("cam0:\n  camera_model: pinhole\n"), noise, nested,
+        std::string("use_fej: true\nrelative_config_imu: \"kalibr_imu_chain.yaml\"\n")}) {
+    ExpectOneProblem(ProblemsOf(Write("%YAML:1.0\n" + text)),
+                     {"camera.yaml: is a file of Kalibr or OpenVINS; convert it with "
+                      "kalibr_to_config.py"});
+  }
+}
+
 TEST_F(ConfigSyntax, AcceptsDocumentMarkersAroundOneDocument) {
   const std::string text = Replaced(kShortFile, "%YAML:1.0\n", "%YAML:1.0\n---\n");
   for (const std::string end : {"", "...\n", "---\n"}) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLongestInterval = 1;               // between images; longer ones are gaps [s]
 constexpr size_t kMostWorlds = 5, kMostReasons = 3;  // largest numbers that are reported
-constexpr char kNoImage[] = "no usable image";
+constexpr char kNoImage[] = "no usable image", kCollecting[] = "collecting images";
 
 // Returns the reason without its figures, which change from image to image.
 std::string Kind(const std::string& reason) {
@@ -81,7 +81,12 @@ std::string RunReport::DescribeTimeWithoutPose(double lead) const {
 std::string RunReport::WhyOftenWithoutPose() const {
   double without = 0;
   for (const auto& [reason, time] : without_pose_) without += time;
-  return 2 * without < elapsed_ || without == 0 ? "" : LongestFirst().front();
+  if (2 * without < elapsed_ || without == 0) return "";
+  const std::vector<std::string> reasons = LongestFirst();
+  // Each start begins by collecting images, so any other reason is the cause.
+  const auto cause = std::find_if(reasons.begin(), reasons.end(),
+                                  [](const auto& reason) { return reason != kCollecting; });
+  return cause == reasons.end() ? kCollecting : *cause;
 }
 
 std::vector<std::string> RunReport::LongestFirst() const {

@@ -25,8 +25,8 @@ class RunReport {
   // Returns why the newest world frame replaced another; empty if there was only one.
   std::string LastRestart() const { return worlds_.size() > 1 ? worlds_.back().reason : ""; }
 
-  // Returns the most frequent reason if at least half of the time has no pose; otherwise an empty
-  // string.
+  // Returns the most frequent reason other than collecting images, if there is another, while at
+  // least half of the time has no pose; otherwise an empty string.
   std::string WhyOftenWithoutPose() const;
 
  private:

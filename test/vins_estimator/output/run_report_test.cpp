@@ -77,6 +77,13 @@ TEST_F(RunReportTest, SaysWhyThereIsOftenNoPose) {
   EXPECT_EQ(report_.WhyOftenWithoutPose(), "the estimated scale is negative");
 }
 
+TEST_F(RunReportTest, CollectingImagesIsACauseOnlyWithoutAnother) {
+  Until(2, Without("collecting images: 0.1 s of 0.7 s"));
+  EXPECT_EQ(report_.WhyOftenWithoutPose(), "collecting images");
+  Until(3, Without("implausible accelerometer bias: 3 m/s^2"));
+  EXPECT_EQ(report_.WhyOftenWithoutPose(), "implausible accelerometer bias");
+}
+
 TEST_F(RunReportTest, WithoutAnyPoseHasNoWorld) {
   EXPECT_THAT(report_.Lines(std::nullopt), IsEmpty());
   Until(1, Without("too little parallax: 1 px of 15 px"));

@@ -49,14 +49,14 @@ struct Test {
 // standstill.
 constexpr Test kTests[] = {
     {IsAny, [](const Reading& r) { return !r.gyro && !r.accel; }, 0.99,
-     "every sample on TOPIC is zero: the driver cannot read the IMU; check its log and the "
+     "every sample on TOPIC is zero or NaN: the driver cannot read the IMU; check its log and the "
      "connection"},
     {IsAny, [](const Reading& r) { return !r.accel; }, 0.99,
-     "specific force is zero in every sample: is TOPIC the gyro's own topic? Unite both sensors "
-     "(unite_imu_method of the driver)"},
-    {IsAny, [](const Reading& r) { return !r.gyro; }, 0.99,
-     "angular velocity is zero in every sample: is TOPIC the accelerometer's own topic? Unite both "
+     "specific force is zero or NaN in every sample: is TOPIC the gyro's own topic? Unite both "
      "sensors (unite_imu_method of the driver)"},
+    {IsAny, [](const Reading& r) { return !r.gyro; }, 0.99,
+     "angular velocity is zero or NaN in every sample: is TOPIC the accelerometer's own topic? "
+     "Unite both sensors (unite_imu_method of the driver)"},
     {IsAny, [](const Reading& r) { return r.gyro != r.accel; }, 0.95,
      "gyro and accelerometer readings alternate on TOPIC: unite them in one message "
      "(unite_imu_method of the driver)"},

@@ -53,13 +53,15 @@ TEST(ImuContent, AcceptsWorkingSensors) {
 TEST(ImuContent, DetectsAMissingSensor) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double nothing : {0.0, nan}) {
-    EXPECT_THAT(FindingOf([&](int, ImuSample* sample) { sample->gyro.setConstant(nothing); }),
-                HasSubstr("angular velocity is zero in every sample: is /imu the accelerometer's"));
-    EXPECT_THAT(FindingOf([&](int, ImuSample* sample) { sample->accel.setConstant(nothing); }),
-                HasSubstr("specific force is zero in every sample: is /imu the gyro's own topic?"));
+    EXPECT_THAT(
+        FindingOf([&](int, ImuSample* sample) { sample->gyro.setConstant(nothing); }),
+        HasSubstr("angular velocity is zero or NaN in every sample: is /imu the accelerometer's"));
+    EXPECT_THAT(
+        FindingOf([&](int, ImuSample* sample) { sample->accel.setConstant(nothing); }),
+        HasSubstr("specific force is zero or NaN in every sample: is /imu the gyro's own topic?"));
   }
   EXPECT_THAT(FindingOf([](int, ImuSample* sample) { *sample = {sample->t_ns}; }),
-              HasSubstr("every sample on /imu is zero"));
+              HasSubstr("every sample on /imu is zero or NaN"));
 }
 
 TEST(ImuContent, DetectsAlternatingSensors) {

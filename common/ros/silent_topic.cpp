@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/ros/silent_topic.h"
 
+#include <ros/console.h>
 #include <ros/master.h>
+
+#include <set>
 
 namespace plm_vins {
 namespace {
 
+constexpr double kMinSilence = 2, kLongSilence = 10;  // [s]
 constexpr char kRaw[] = "sensor_msgs/Image";
 constexpr char kCompressed[] = "sensor_msgs/CompressedImage";
 
@@ -14,12 +18,20 @@ std::string Transport(const std::string& transport) {
          " (for a node alone _image_transport:=" + transport + ")";
 }
 
+// Returns whether a topic has the pictures of a tracker or of the pose graph, of any camera.
+bool IsOfSuite(const std::string& topic) {
+  for (const char* name : {"/feature_img", "/linefeature_img", "/match_image"}) {
+    if (topic.find(name) != std::string::npos) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 TopicAdvice AdviseOnSilence(const std::string& topic, const std::string& type) {
   ros::master::V_TopicInfo topics;
   if (!ros::master::getTopics(topics)) return {};
-  std::string others;
+  std::set<std::string> others;  // the master's order may change
   for (const ros::master::TopicInfo& other : topics) {
     if (other.name == topic && other.datatype == kCompressed) {
       return {"its messages are compressed images: " + Transport("compressed") + ", and remap " +
@@ -36,11 +48,22 @@ TopicAdvice AdviseOnSilence(const std::string& topic, const std::string& type) {
       return {"but " + other.name + " is published: start without image_transport:=compressed",
               true};
     }
-    if (other.datatype == type && other.name != topic) others += " " + other.name;
+    if (other.datatype == type && other.name != topic && !IsOfSuite(other.name)) {
+      others.insert(other.name);
+    }
   }
-  return {others.empty() ? "no topic of type " + type + " is published"
-                         : "published topics of type " + type + ":" + others,
-          false};
+  if (others.empty()) return {"no topic of type " + type + " is published", false};
+  std::string text = "published topics of type " + type + ":";
+  for (const std::string& other : others) text += " " + other;
+  return {text, false};
+}
+
+void SilenceWarner::Check(const std::string& topic, const std::string& type, double silence) {
+  if (silence < kMinSilence) return;
+  const TopicAdvice advice = AdviseOnSilence(topic, type);
+  if (advice.text == advice_ || (!advice.is_certain && silence < kLongSilence)) return;
+  advice_ = advice.text;
+  ROS_WARN_STREAM("no messages on " << topic << "; " << advice.text);
 }
 
 }  // namespace plm_vins

@@ -15,4 +15,15 @@ struct TopicAdvice {
 // "sensor_msgs/Image". Asks the master and waits for its answer.
 TopicAdvice AdviseOnSilence(const std::string& topic, const std::string& type);
 
+// Warns on the console that no message has come on a topic, and again when other topics are
+// published than at the last warning, since sensors and players may start later.
+class SilenceWarner {
+ public:
+  // To be called regularly until the first message, after `silence` seconds of wall time.
+  void Check(const std::string& topic, const std::string& type, double silence);
+
+ private:
+  std::string advice_;  // of the last warning
+};
+
 }  // namespace plm_vins

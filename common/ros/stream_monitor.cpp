@@ -23,6 +23,11 @@ void StreamMonitor::Add(int64_t t_ns) {
   summed_delay_ += ToSeconds(ToNanoseconds(ros::Time::now()) - t_ns);
 }
 
+bool StreamMonitor::HasMessages() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return last_ns_.has_value();
+}
+
 double StreamMonitor::Silence() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return (ros::WallTime::now() - last_arrival_).toSec();

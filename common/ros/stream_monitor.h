@@ -21,6 +21,8 @@ class StreamMonitor {
   // Reports a message with this timestamp, received or sent now.
   void Add(int64_t t_ns);
 
+  bool HasMessages() const;
+
   // Wall time since the last message, or since construction if there was none [s].
   double Silence() const;
 

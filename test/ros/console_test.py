@@ -19,7 +19,7 @@ from tf2_msgs.msg import TFMessage
 from node_processes import Processes, arguments, start_master, wait_until
 
 NODES, _, FOLDER = arguments(__doc__)
-SOON = 5 + 10  # [s]: five, and what a busy machine takes to start a node
+SOON = 10 + 10  # [s]: ten, and what a busy machine takes to start a node
 START = 1e9  # [s], the first stamp
 
 
@@ -58,6 +58,25 @@ class Silence(ConsoleTest):
         self.advertise("/cam0/image_raw", Image)
         self.processes.start_node(NODES / "linefeature_tracker", "_image_transport:=compressed")
         self.wait_for("linefeature_tracker", "but /cam0/image_raw is published: start without")
+
+    def test_own_pictures_are_no_images_to_choose_from(self):
+        self.advertise("/camera/image_raw", Image)
+        self.processes.start_node(NODES / "feature_tracker")
+        self.wait_for("feature_tracker", "no messages on /cam0/image_raw; published topics of type "
+                      "sensor_msgs/Image: /camera/image_raw")
+        self.assertNotIn("/feature_img", self.processes.log("feature_tracker"))
+
+    def test_images_that_begin_late_on_another_topic(self):
+        self.processes.start_node(NODES / "feature_tracker")
+        self.wait_for("feature_tracker", "no topic of type sensor_msgs/Image is published")
+        self.advertise("/cam0/image_raw/compressed", CompressedImage)
+        self.wait_for("feature_tracker", "/cam0/image_raw/compressed is published: start with")
+
+    def test_imu_samples_on_another_topic(self):
+        self.advertise("/imu/data_raw", Imu)
+        self.processes.start_node(NODES / "vins_estimator")
+        self.wait_for("vins_estimator", "no messages on /imu0; published topics of type "
+                      "sensor_msgs/Imu: /imu/data_raw")
 
     def test_messages_of_another_type(self):
         self.advertise("/cam0/image_raw", Imu)

@@ -78,7 +78,9 @@ class TrackerNode {
     diagnostics_.add(traits.status, this, &TrackerNode::ReportStatus);
     diagnostics_timer_ =
         node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
-          LogSilence();
+          if (!images_.stream().HasMessages()) {
+            silence_.Check(images_.topic(), images_.type(), images_.stream().Silence());
+          }
           diagnostics_.force_update();
         });
     SubscribeToOthers();
@@ -93,7 +95,6 @@ class TrackerNode {
   static constexpr double kMaxWait = 0.5;  // as in the estimator (ImageQueue) [s]
   // Wall time after which an image is tracked without the gyroscope [s].
   static constexpr double kMaxWaitForImu = 0.5;
-  static constexpr double kMinSilence = 2, kLongSilence = 10;  // [s] of wall time
 
   void SubscribeToOthers() {
     const SensorConfig& sensor = config_.sensor;
@@ -139,21 +140,10 @@ class TrackerNode {
 
   void AddImage(std::optional<ImageSample> image) {
     last_image_arrival_ = ros::WallTime::now();
-    waits_for_first_image_ = false;
     if (image) CheckStamp(image->t_ns);
     if (image) stage_.AddImage(0, std::move(*image));
     ScheduleTracking();
     drop_warner_.Check(Drops());
-  }
-
-  // Warns once if no image arrives: early if images are published in another form.
-  void LogSilence() {
-    const double silence = images_.stream().Silence();
-    if (!waits_for_first_image_ || silence < kMinSilence) return;
-    const TopicAdvice advice = AdviseOnSilence(images_.topic(), images_.type());
-    if (!advice.is_certain && silence < kLongSilence) return;
-    waits_for_first_image_ = false;
-    ROS_WARN_STREAM("no messages on " << images_.topic() << "; " << advice.text);
   }
 
   void CheckStamp(int64_t t_ns) {
@@ -266,8 +256,8 @@ class TrackerNode {
   DropWarner drop_warner_;
   ConstantStamp image_stamps_;
   FindingMemory stamp_faults_, image_faults_;
-  bool tracking_is_due_ = false;       // TrackNext() is in the queue of callbacks
-  bool waits_for_first_image_ = true;  // no image has arrived, and silence was not logged
+  bool tracking_is_due_ = false;  // TrackNext() is in the queue of callbacks
+  SilenceWarner silence_;
   ErrorCounter errors_;
   size_t features_in_last_image_ = 0;
   double tracking_ms_ = 0;  // for the last image [ms]

@@ -24,6 +24,7 @@
 #include "common/ros/in_place_queue.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/publisher_watch.h"
+#include "common/ros/silent_topic.h"
 #include "common/streams/bounded_queue.h"
 #include "vins_estimator/estimation_stage.h"
 #include "vins_estimator/input/track_velocities.h"
@@ -80,6 +81,7 @@ class EstimatorNode {
   bool SaveTrajectory(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   // Returns the full path of ~trajectory_file; that of `otherwise` if it is empty or not set.
   std::string TrajectoryFile(const std::string& otherwise) const;
+  void WarnWithoutImu();  // until its first sample
   void WarnWithoutFileAtEnd() const;
   void WarnWithoutCalibrationAtEnd() const;
   // Saves all files and returns a description; throws std::runtime_error if a file cannot be
@@ -130,6 +132,7 @@ class EstimatorNode {
   ros::Subscriber transforms_;  // until no other publisher of this node's transforms was found
   std::optional<ros::WallTime> first_own_transform_;
   std::vector<ros::ServiceServer> services_;
+  SilenceWarner silence_;
   diagnostic_updater::Updater diagnostics_updater_;
   ros::WallTimer diagnostics_timer_;
   std::thread worker_;

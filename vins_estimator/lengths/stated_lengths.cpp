@@ -82,8 +82,9 @@ bool StatedLengths::Add(const FrameMeasurement& measurement, const EstimatorRepo
     is_news |= check.is_wrong() && !was_wrong;
     is_open |= check.is_open();
   }
-  if (sensor_.depth && !unaligned_) {
+  if (sensor_.depth && !DropsDepth()) {
     unaligned_ = previous.depth.misalignment;
+    if (unaligned_) checks_.pop_back();
     is_news |= unaligned_.has_value();
     is_open = true;
   }
@@ -103,7 +104,7 @@ bool StatedLengths::IsDropped(int camera) const {
 }
 
 bool StatedLengths::DropsDepth() const {
-  return sensor_.depth && (checks_.back().is_wrong() || unaligned_);
+  return sensor_.depth && (unaligned_ || checks_.back().is_wrong());
 }
 
 FrameMeasurement StatedLengths::Usable(FrameMeasurement measurement) const {
@@ -160,7 +161,7 @@ std::string StatedLengths::Finding() const {
     if (!text.empty()) text += "; ";
     text += Describe(check);
   }
-  if (unaligned_ && !checks_.back().is_wrong()) {
+  if (unaligned_) {
     if (!text.empty()) text += "; ";
     text += "depth_topic " + sensor_.depth->topic +
             Format(

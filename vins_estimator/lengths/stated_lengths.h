@@ -51,7 +51,7 @@ class StatedLengths {
   std::string Describe(const LengthCheck& check) const;
 
   const SensorConfig sensor_;
-  std::vector<LengthCheck> checks_;
+  std::vector<LengthCheck> checks_;        // of pairs, then of depths, unless these are unaligned
   std::optional<Misalignment> unaligned_;  // of depths; final
   std::deque<FrameMeasurement> images_;
 };

@@ -66,6 +66,7 @@ TEST(StatedLengths, LeaveOutDepthsThatAreNotAligned) {
   const Config config = testing::ConfigFor(flight);
   StatedLengths lengths(config);
   EXPECT_FALSE(lengths.Add(flight.frames[0]));
+  EXPECT_GT(lengths.Doubt(), 0);
   EstimatorReport report;
   report.depth.misalignment = {6, 0.5};
   EXPECT_TRUE(lengths.Add(flight.frames[1], report));
@@ -75,6 +76,7 @@ TEST(StatedLengths, LeaveOutDepthsThatAreNotAligned) {
   EXPECT_FALSE(lengths.Usable(config).sensor.depth);
   EXPECT_THAT(lengths.Finding(), HasSubstr("not aligned to camera 0, by at least 6 px"));
   EXPECT_DOUBLE_EQ(lengths.Contradiction(), 12);
+  EXPECT_EQ(lengths.Doubt(), 0) << "no length is used";
 }
 
 TEST(StatedLengths, LeaveOutDepthsBeyondTheLargest) {

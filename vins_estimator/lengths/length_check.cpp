@@ -134,13 +134,23 @@ void LengthCheck::Judge(const RatioCurve& curve) {
 
 void LengthCheck::Add(const LengthEvidence& log_ratio) {
   doubt_of_estimator_ = std::hypot(log_ratio.error, log_ratio.deviation);
-  if (!log_ratio.IsSignificant() || is_known_ || is_wrong_ || ratio_.deviation > kRoughly) return;
+  if (!log_ratio.IsSignificant() || is_known_ || is_wrong_) return;
   const double difference =
       (log_ratio.error - ratio_.log_ratio) / std::hypot(log_ratio.deviation, ratio_.deviation);
   if (std::abs(difference) > kAgree || std::abs(log_ratio.error) < kLargestError) return;
-  by_estimator_ = std::abs(log_ratio.error) / log_ratio.deviation;
+  by_estimator_ = log_ratio.error;
   is_wrong_ = true;
 }
+
+double LengthCheck::contradiction() const {
+  return std::max(ratio_.contradiction, by_estimator_ ? kMinSignificance : 0);
+}
+
+bool LengthCheck::IsTooLong() const {
+  return (KnowsRatio() ? ratio_.log_ratio : *by_estimator_) > 0;
+}
+
+bool LengthCheck::KnowsRatio() const { return !by_estimator_ || ratio_.deviation < kRoughly; }
 
 // Drops the beginning of a long standstill. Returns whether it still lasts.
 bool LengthCheck::ShortenRest() {

@@ -31,8 +31,9 @@ class LengthCheck {
   // Adds the next image.
   void Add(const FrameMeasurement& measurement);
 
-  // Adds the evidence of the estimator on the logarithm of the ratio. Only if it agrees with the
-  // odometry is it a fact about the length: other faults deceive each in another way.
+  // Adds the evidence of the estimator on the logarithm of the ratio. If it disagrees with the
+  // odometry, it is no fact about the length: other faults deceive each in another way. Where
+  // points are too far away for the odometry, as in a large hall, the estimator decides alone.
   void Add(const LengthEvidence& log_ratio);
 
   // Drops the images of the current piece, as after a jump of the clock.
@@ -40,10 +41,16 @@ class LengthCheck {
 
   // Ratio of the stated length to the true one.
   const RatioEstimate& ratio() const { return ratio_; }
-  // Standard deviations by which the stated length is ruled out.
-  double contradiction() const { return std::max(ratio_.contradiction, by_estimator_); }
+  // Standard deviations by which the stated length is ruled out. The estimator's evidence counts as
+  // just significant: checks that need no estimate, as of turned cameras, explain it as well.
+  double contradiction() const;
   // Returns whether the length is wrong. This is final.
   bool is_wrong() const { return is_wrong_; }
+
+  // Both are for a wrong length. The estimator's evidence is linear, so that it tells the direction
+  // of a large error, but not the ratio.
+  bool IsTooLong() const;
+  bool KnowsRatio() const;
 
   // Returns the relative standard deviation of the length as far as this check or the estimator
   // compared it with the IMU: at most one, and zero once nothing is left to compare, as the length
@@ -70,7 +77,7 @@ class LengthCheck {
   RatioEstimate ratio_;
   double scale_information_ = 0;  // of the depths in all pieces before
   double scale_information_of_piece_ = 0;
-  double by_estimator_ = 0;  // contradiction that the estimator found
+  std::optional<double> by_estimator_;  // log ratio, if the estimator has ruled the length out
   double doubt_of_estimator_ = 1;
   int contradictions_ = 0;  // consecutive judgements that rule the length out
   bool is_wrong_ = false, is_known_ = false;

@@ -135,23 +135,27 @@ Config StatedLengths::Usable(Config config) const {
 
 std::string StatedLengths::Describe(const LengthCheck& check) const {
   const double ratio = std::exp(check.ratio().log_ratio);
-  const bool is_long = ratio > 1;
-  const double times = is_long ? ratio : 1 / ratio;
-  const std::string factor = Format("%.*f", times < 1.995 ? 2 : 1, times) +
-                             (is_long ? " times too long" : " times too short");
+  const double times = std::max(ratio, 1 / ratio);
+  const bool is_long = check.IsTooLong();
+  const std::string factor = check.KnowsRatio()
+                                 ? Format("%.*f", times < 1.995 ? 2 : 1, times) +
+                                       (is_long ? " times too long" : " times too short")
+                                 : (is_long ? "too long" : "too short");
   if (!check.pair()) {
-    const std::string unit = ProbableDepthUnit(ratio, check.ratio().deviation, sensor_.depth->unit);
+    const std::string unit =
+        check.KnowsRatio() ? ProbableDepthUnit(ratio, check.ratio().deviation, sensor_.depth->unit)
+                           : "";
     return "depth_topic " + sensor_.depth->topic + ": by motion and IMU, depths are " + factor +
            (unit.empty() ? "" : " (" + unit + ")") + "; they are not used";
   }
   const auto& [first, second] = *check.pair();
   const double stated =
       (sensor_.cameras[first].T_B_C.Inverse() * sensor_.cameras[second].T_B_C).translation.norm();
-  return Format(
-             "%s: by motion and IMU, the baseline of cameras %d and %d is %.3g m, so that the "
-             "configured %.3g m are ",
-             TransformKey(second).c_str(), first, second, stated / ratio, stated) +
-         factor + Format("; camera %d is not used", second);
+  const std::string right = check.KnowsRatio() ? Format("%.3g m, ", stated / ratio) : "";
+  return TransformKey(second) +
+         Format(": by motion and IMU, the baseline of cameras %d and %d is ", first, second) +
+         right + Format("not the configured %.3g m, which are ", stated) + factor +
+         Format("; camera %d is not used", second);
 }
 
 std::string StatedLengths::Finding() const {

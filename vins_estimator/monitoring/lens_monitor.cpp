@@ -100,7 +100,8 @@ std::string LensMonitor::Judge() const {
       rings.begin(), rings.end(),
       [](const ResidualRing& a, const ResidualRing& b) { return a.radial_px < b.radial_px; });
   return "residuals of points depend on the distance from the image center (" + ToString(*inwards) +
-         ", " + ToString(*outwards) + "): the distortion model does not fit; recalibrate" +
+         ", " + ToString(*outwards) +
+         "): the focal length or the distortion model does not fit; recalibrate" +
          (is_equidistant_ ? "" : " with an equidistant (fisheye) model");
 }
 

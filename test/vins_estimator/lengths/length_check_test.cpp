@@ -120,7 +120,7 @@ TEST(LengthCheck, BelievesTheEstimatorIfTheOdometryAgrees) {
   const auto is_wrong = [&](const LengthEvidence& log_ratio) {
     LengthCheck told = check;
     told.Add(log_ratio);
-    EXPECT_EQ(told.is_wrong(), told.contradiction() > 5);
+    EXPECT_EQ(told.is_wrong(), told.contradiction() >= 5);
     return told.is_wrong();
   };
   EXPECT_TRUE(is_wrong({0.058, 0.011}));
@@ -128,6 +128,23 @@ TEST(LengthCheck, BelievesTheEstimatorIfTheOdometryAgrees) {
   EXPECT_FALSE(is_wrong({0.045, 0.008})) << "small";
   EXPECT_FALSE(is_wrong({0.5, 0.05})) << "other";
   EXPECT_FALSE(is_wrong({-0.06, 0.011})) << "other";
+}
+
+TEST(LengthCheck, BelievesTheEstimatorWhereTheOdometryTellsNothing) {
+  const auto told = [](const LengthEvidence& log_ratio) {
+    LengthCheck check(simulator::DefaultStereoSensors(), 0.5, StereoPair{0, 1});
+    check.Add(log_ratio);
+    return check;
+  };
+  EXPECT_FALSE(told({0.2, 0.05}).is_wrong()) << "uncertain";
+  EXPECT_FALSE(told({0.045, 0.002}).is_wrong()) << "small";
+  for (const double error : {0.2, -0.2}) {
+    const LengthCheck check = told({error, 0.02});
+    EXPECT_TRUE(check.is_wrong());
+    EXPECT_FALSE(check.KnowsRatio());
+    EXPECT_EQ(check.IsTooLong(), error > 0);
+    EXPECT_EQ(check.contradiction(), 5) << "just significant";
+  }
 }
 
 // A turned camera shifts all disparities.

@@ -79,6 +79,18 @@ TEST(StatedLengths, LeaveOutDepthsThatAreNotAligned) {
   EXPECT_EQ(lengths.Doubt(), 0) << "no length is used";
 }
 
+TEST(StatedLengths, NameABaselineThatOnlyTheEstimatorKnows) {
+  auto options = testing::FlightOptions(simulator::Motion::kHover, 1);
+  options.sensors.cameras = simulator::DefaultStereoSensors().cameras;
+  const auto flight = testing::SimulateFlight(options);
+  StatedLengths lengths(testing::ConfigFor(flight));
+  EstimatorReport report;
+  report.cameras = {{1, std::nullopt, std::nullopt, LengthEvidence{-0.2, 0.02}}};
+  EXPECT_TRUE(lengths.Add(flight.frames[0], report));
+  EXPECT_THAT(lengths.Finding(), HasSubstr("baseline of cameras 0 and 1 is not the configured"));
+  EXPECT_THAT(lengths.Finding(), HasSubstr("which are too long; camera 1 is not used"));
+}
+
 TEST(StatedLengths, LeaveOutDepthsBeyondTheLargest) {
   auto flight = FlyWithDepth(1);
   flight.sensor.depth->max = 2;

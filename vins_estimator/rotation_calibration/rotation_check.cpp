@@ -136,7 +136,9 @@ RotationFit RotationCheck::Explain(const Eigen::Quaterniond& R_B_C) const {
   const RotationFit fit = ExplainRotations(pairs_, R_B_C);
   if (fit.cause == Cause::kNone) return fit;
   const auto focal_error = ErrorOfFocalLength(pairs_, R_B_C, noise_);
-  return focal_error ? RotationFit{Cause::kFocalLength, *focal_error} : fit;
+  if (focal_error) return {Cause::kFocalLength, *focal_error};
+  // An error of the gyro shows in the first camera, too, whose check names it.
+  return camera_ > 0 && fit.cause == Cause::kGyro ? RotationFit{} : fit;
 }
 
 void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {

@@ -99,16 +99,31 @@ TEST(RotationCheck, NamesACameraUpsideDown) {
   EXPECT_NE(Check(flight).find("turned by 180 deg"), std::string::npos) << Check(flight);
 }
 
-TEST(RotationCheck, NamesAGyroWithWrongScales) {
+SimulatedFlight FlyWithWrongGyro() {
   SimulatedFlight flight = Fly(2, simulator::Motion::kFast);
   for (FrameMeasurement& frame : flight.frames) {
     for (ImuSample& sample : frame.imu)
       sample.gyro = Eigen::Vector3d(1.04, 0.97, 1).cwiseProduct(sample.gyro);
   }
-  EXPECT_EQ(Check(flight).rfind("scale or axes of the gyro are wrong by up to ", 0), 0u)
-      << Check(flight);
+  return flight;
+}
+
+TEST(RotationCheck, NamesAGyroWithWrongScales) {
+  SimulatedFlight flight = FlyWithWrongGyro();
+  EXPECT_THAT(Check(flight), StartsWith("scale or axes of the gyro are wrong by up to "));
   flight.frames.resize(static_cast<size_t>(5.5 / 0.05));
   EXPECT_THAT(Check(flight), StartsWith("scale or axes of the gyro are wrong by up to "));
+}
+
+TEST(RotationCheck, LeavesTheGyroToTheFirstCamera) {
+  SimulatedFlight flight = FlyWithWrongGyro();
+  flight.sensor.cameras.push_back(flight.sensor.cameras[0]);
+  RotationCheck check(flight.sensor, 1, 0.5);
+  for (FrameMeasurement& frame : flight.frames) {
+    for (PointObservation& point : frame.points.points) point.camera = 1;
+    check.Add(frame, /*in_doubt=*/true);
+    EXPECT_EQ(check.finding(), "");
+  }
 }
 
 }  // namespace

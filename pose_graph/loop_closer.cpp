@@ -8,10 +8,15 @@
 #include "common/append.h"
 #include "pose_graph/keyframes/keyframe.h"
 #include "pose_graph/keyframes/keyframe_maker.h"
+#include "pose_graph/keyframes/keyframe_policy.h"
 #include "pose_graph/map/landmark_update.h"
 
 namespace plm_vins {
 namespace {
+
+constexpr KeyframeSpacing kSpacing = {};
+// Denser keyframes while the pose in the map is unknown, to find it soon.
+constexpr KeyframeSpacing kLostSpacing = {0.1, 5 * M_PI / 180, 0.5};
 
 std::vector<LoopCandidate*> NewLoops(LoopClosure* closure) {
   std::vector<LoopCandidate*> loops;
@@ -35,14 +40,9 @@ bool Take(const LoopCandidate& loop, std::vector<LevelEdge>* edges) {
 
 }  // namespace
 
-LoopCloser::LoopCloser(const LoopCloserOptions& options, const CameraModels& cameras)
-    : options_(options),
-      cameras_(cameras),
-      recognition_(options.recognition),
-      verification_(options.verification, cameras),
-      acceptance_(options.acceptance),
-      thinning_(options.thinning),
-      place_(options.odometry) {}
+LoopCloser::LoopCloser(const CameraModels& cameras)
+    : cameras_(cameras),
+      verification_(LoopVerificationOptions(cameras.front()->FocalLength()), cameras) {}
 
 void LoopCloser::SetMap(KeyframeMap map) {
   const auto has_more = [this](const Keyframe& keyframe) {
@@ -77,7 +77,7 @@ LoopClosure LoopCloser::Add(const OdometryFrame& frame) {
     closure.fix = Fix();
     return closure;
   }
-  Keyframe keyframe = MakeKeyframe(options_.corners, cameras_, frame);
+  Keyframe keyframe = MakeKeyframe(CornerSelectionOptions(), cameras_, frame);
   keyframe.world = world_;
   keyframe.path = path_;
   return Add(std::move(keyframe));
@@ -89,7 +89,7 @@ LoopClosure LoopCloser::Add(Keyframe keyframe) {
   const int number =
       map_.graph.AddNode(continues ? map_.T_M_O(map_.graph.size() - 1) * T_O_L : T_O_L);
   map_.keyframes.push_back(std::move(keyframe));
-  UpdateLandmarks(options_.verification.ransac.max_error, &map_.keyframes);
+  UpdateLandmarks(verification_.max_error(), &map_.keyframes);
   recognition_.Add(map_.keyframes.back(), number);
   if (continues) ConnectToPrevious(number);
   place_.AddKeyframe(map_);
@@ -109,7 +109,7 @@ bool LoopCloser::HasKeyframeOf(int world) const {
 
 bool LoopCloser::IsKeyframe(const OdometryFrame& frame) const {
   if (!HasKeyframeOf(world_)) return true;
-  const KeyframeSpacing& spacing = Fix() ? options_.spacing : options_.lost_spacing;
+  const KeyframeSpacing& spacing = Fix() ? kSpacing : kLostSpacing;
   const Keyframe& last = map_.keyframes.back();
   return IsApart(spacing, last.t_ns, last.T_O_B, frame.t_ns, frame.T_O_B);
 }
@@ -121,12 +121,12 @@ void LoopCloser::ConnectToPrevious(int number) {
   edge.from = number - 1;
   edge.to = number;
   edge.T_from_to = from.T_O_L().Inverse() * to.T_O_L();
-  edge.covariance = StepCovariance(options_.odometry, edge.T_from_to.translation,
-                                   to.covariance - from.covariance);
+  edge.covariance =
+      StepCovariance(OdometryNoise(), edge.T_from_to.translation, to.covariance - from.covariance);
   // Extends the distance if the estimated covariance exceeds the drift over that distance, as after
   // images without features.
   edge.way = std::max(edge.T_from_to.translation.norm(),
-                      options_.acceptance.drift.DistanceOf(edge.covariance.diagonal()));
+                      kLoopDrift.DistanceOf(edge.covariance.diagonal()));
   map_.graph.AddEdge(edge);
 }
 
@@ -178,7 +178,7 @@ Island LoopCloser::IslandOf(const MapImage& image) const {
   Island island;
   island.keyframe = &keyframes[image.keyframe];
   island.camera = image.camera;
-  for (const int i : NumbersAround(keyframes, image.keyframe, options_.recognition.island_radius)) {
+  for (const int i : NumbersAround(keyframes, image.keyframe, kIslandRadius)) {
     island.all.push_back(&keyframes[i]);
   }
   return island;

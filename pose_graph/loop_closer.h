@@ -7,12 +7,9 @@
 #include <vector>
 
 #include "common/camera/camera_model.h"
-#include "pose_graph/description/corner_selection.h"
 #include "pose_graph/graph/pose_graph.h"
 #include "pose_graph/keyframes/keyframe.h"
-#include "pose_graph/keyframes/keyframe_policy.h"
 #include "pose_graph/keyframes/odometry_frame.h"
-#include "pose_graph/keyframes/odometry_noise.h"
 #include "pose_graph/map/keyframe_map.h"
 #include "pose_graph/map/map_fix.h"
 #include "pose_graph/map/map_thinning.h"
@@ -23,22 +20,6 @@
 #include "pose_graph/verification/loop_verification.h"
 
 namespace plm_vins {
-
-struct LoopCloserOptions {
-  // Limits in pixels are those of camera 0.
-  explicit LoopCloserOptions(const CameraModels& cameras)
-      : verification(cameras.front()->FocalLength()) {}
-
-  KeyframeSpacing spacing;
-  // Denser keyframes while the pose in the map is unknown, to find it soon.
-  KeyframeSpacing lost_spacing = {0.1, 5 * M_PI / 180, 0.5};
-  CornerSelectionOptions corners;
-  OdometryNoise odometry;
-  PlaceRecognitionOptions recognition;
-  LoopVerificationOptions verification;
-  LoopAcceptanceOptions acceptance;
-  MapThinningOptions thinning;
-};
 
 // A place recognized in the newest keyframe.
 struct RecognizedPlace {
@@ -62,7 +43,8 @@ struct LoopClosure {
 // changed. One call for each image; synchronous and deterministic.
 class LoopCloser {
  public:
-  LoopCloser(const LoopCloserOptions& options, const CameraModels& cameras);
+  // Limits in pixels are those of camera 0.
+  explicit LoopCloser(const CameraModels& cameras);
 
   // Starts from a loaded map. Must be called before the first Add(). Throws std::runtime_error if
   // the map's keyframes have more cameras.
@@ -92,14 +74,13 @@ class LoopCloser {
   void Thin();
   std::optional<MapFix> Fix() const;
 
-  LoopCloserOptions options_;
   CameraModels cameras_;
   PlaceRecognition recognition_;
   LoopVerification verification_;
   LoopAcceptance acceptance_;
-  MapThinning thinning_;
+  MapThinning thinning_{MapThinningOptions()};
   KeyframeMap map_;
-  PlaceInMap place_;
+  PlaceInMap place_{OdometryNoise()};
   std::vector<LoopCandidate> rejected_;  // the newest loops that the graph rejected
   int world_ = 0;
   double path_ = 0;                                 // distance traveled in this world [m]

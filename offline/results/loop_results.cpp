@@ -58,7 +58,7 @@ LoopResults::LoopResults(const Config& config, const std::string& folder,
                          std::optional<KeyframeMap> map)
     : folder_(folder),
       cameras_(CreateAll(config.sensor.cameras)),
-      loops_(LoopCloserOptions(cameras_), cameras_),
+      loops_(cameras_),
       bundle_(BundleOf(config, cameras_[0]->FocalLength())),
       trajectory_(File("trajectory_map.tum")),
       covariance_(File("covariance_map.csv"), CovarianceHeader()),

@@ -21,7 +21,7 @@ struct CornerIndexOptions {
 // to a word, as in [Usenko2020], and only descriptors that share a word are compared.
 class CornerIndex {
  public:
-  explicit CornerIndex(const CornerIndexOptions& options);
+  explicit CornerIndex(const CornerIndexOptions& options = {});
 
   void Add(const MapImage& image, const std::vector<Descriptor>& descriptors);
   // The image must have been added.

@@ -12,6 +12,11 @@
 namespace plm_vins {
 namespace {
 
+constexpr double kMinTime = 15;          // age of an image that counts as another visit [s]
+constexpr size_t kMaxIslands = 3;        // candidates for each image
+constexpr double kMinScoreShare = 0.05;  // relative to the score of the preceding image
+constexpr size_t kMemory = 2;  // preceding keyframes, one of which must have led to the same island
+
 std::vector<Descriptor> DescriptorsOf(const Keyframe& keyframe, int camera) {
   std::vector<Descriptor> descriptors;
   for (const DescribedCorner& corner : keyframe.corners) {
@@ -21,8 +26,8 @@ std::vector<Descriptor> DescriptorsOf(const Keyframe& keyframe, int camera) {
 }
 
 // Returns whether the keyframe belongs to another visit: another world, or long enough ago.
-bool IsEarlierVisit(const Keyframe& newest, const Keyframe& other, double min_time) {
-  return other.world != newest.world || ToSeconds(newest.t_ns - other.t_ns) >= min_time;
+bool IsEarlierVisit(const Keyframe& newest, const Keyframe& other) {
+  return other.world != newest.world || ToSeconds(newest.t_ns - other.t_ns) >= kMinTime;
 }
 
 using Scores = std::map<MapImage, double>;
@@ -44,18 +49,15 @@ double ReferenceScore(const Scores& scores, const std::vector<Keyframe>& keyfram
 }
 
 double IslandScore(const Scores& scores, const std::vector<Keyframe>& keyframes,
-                   const MapImage& image, int radius) {
+                   const MapImage& image) {
   double sum = 0;
-  for (const int i : NumbersAround(keyframes, image.keyframe, radius)) {
+  for (const int i : NumbersAround(keyframes, image.keyframe, kIslandRadius)) {
     sum += ScoreOf(scores, {i, image.camera});
   }
   return sum;
 }
 
 }  // namespace
-
-PlaceRecognition::PlaceRecognition(const PlaceRecognitionOptions& options)
-    : options_(options), index_(options.index) {}
 
 void PlaceRecognition::Add(const Keyframe& keyframe, int number) {
   for (int camera = 0; camera < keyframe.cameras(); ++camera) {
@@ -78,7 +80,7 @@ std::vector<PlaceCandidate> PlaceRecognition::Find(const std::vector<Keyframe>& 
   for (const PlaceCandidate& candidate : candidates) {
     if (candidate.similar) recent_.back().push_back(candidate.earlier);
   }
-  if (static_cast<int>(recent_.size()) > options_.memory) recent_.pop_front();
+  if (recent_.size() > kMemory) recent_.pop_front();
   return candidates;
 }
 
@@ -88,8 +90,8 @@ void PlaceRecognition::FindFor(int camera, const std::vector<Keyframe>& keyframe
   const Scores scores = index_.Scores(DescriptorsOf(newest, camera));
   std::vector<std::pair<double, MapImage>> islands;  // with scores
   for (const auto& [image, score] : scores) {
-    if (!IsEarlierVisit(newest, keyframes[image.keyframe], options_.min_time)) continue;
-    islands.emplace_back(IslandScore(scores, keyframes, image, options_.island_radius), image);
+    if (!IsEarlierVisit(newest, keyframes[image.keyframe])) continue;
+    islands.emplace_back(IslandScore(scores, keyframes, image), image);
   }
   std::stable_sort(islands.begin(), islands.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -97,10 +99,10 @@ void PlaceRecognition::FindFor(int camera, const std::vector<Keyframe>& keyframe
   const double reference = ReferenceScore(scores, keyframes, camera);
   std::vector<MapImage> taken;
   for (const auto& [island_score, image] : islands) {
-    if (static_cast<int>(taken.size()) == options_.max_islands) break;
+    if (taken.size() == kMaxIslands) break;
     const auto is_same_island = [&, image = image](const MapImage& other) {
       return other.camera == image.camera &&
-             std::abs(other.keyframe - image.keyframe) <= 2 * options_.island_radius;
+             std::abs(other.keyframe - image.keyframe) <= 2 * kIslandRadius;
     };
     if (std::any_of(taken.begin(), taken.end(), is_same_island)) continue;
     taken.push_back(image);
@@ -108,7 +110,7 @@ void PlaceRecognition::FindFor(int camera, const std::vector<Keyframe>& keyframe
     candidate.earlier = image;
     candidate.camera = camera;
     candidate.score_share = reference > 0 ? ScoreOf(scores, image) / reference : 0;
-    candidate.similar = candidate.score_share >= options_.min_score_share;
+    candidate.similar = candidate.score_share >= kMinScoreShare;
     candidate.repeated = IsRepeated(image, keyframes);
   }
 }
@@ -120,7 +122,7 @@ bool PlaceRecognition::IsRepeated(const MapImage& candidate,
   for (const std::vector<MapImage>& before : recent_) {
     for (const MapImage& other : before) {
       if (keyframes[other.keyframe].world == world &&
-          std::abs(other.keyframe - candidate.keyframe) <= 2 * options_.island_radius) {
+          std::abs(other.keyframe - candidate.keyframe) <= 2 * kIslandRadius) {
         return true;
       }
     }

@@ -9,14 +9,7 @@
 
 namespace plm_vins {
 
-struct PlaceRecognitionOptions {
-  CornerIndexOptions index;
-  double min_time = 15;           // age of an image that counts as another visit [s]
-  int island_radius = 3;          // neighboring keyframes on each side that show the same place
-  int max_islands = 3;            // candidates for each image
-  double min_score_share = 0.05;  // relative to the score of the preceding image
-  int memory = 2;  // preceding keyframes, one of which must have led to the same island
-};
+constexpr int kIslandRadius = 3;  // neighboring keyframes on each side that show the same place
 
 // An island (images of one camera, adjacent in time) that is similar to an image of the newest
 // keyframe.
@@ -32,8 +25,6 @@ struct PlaceCandidate {
 // cameras may differ: one that looks back recognizes what another one saw ahead.
 class PlaceRecognition {
  public:
-  explicit PlaceRecognition(const PlaceRecognitionOptions& options);
-
   // Adds a keyframe, which must be keyframes[number] in each following Find().
   void Add(const Keyframe& keyframe, int number);
 
@@ -48,7 +39,6 @@ class PlaceRecognition {
                std::vector<PlaceCandidate>* candidates) const;
   bool IsRepeated(const MapImage& candidate, const std::vector<Keyframe>& keyframes) const;
 
-  PlaceRecognitionOptions options_;
   CornerIndex index_;
   std::deque<std::vector<MapImage>> recent_;  // candidates of the preceding keyframes, newest last
 };

@@ -265,7 +265,7 @@ void PoseGraphNode::StartWith(KeyframeMap map) {
     BeginWorld();
   }
   const std::lock_guard<std::mutex> lock(loops_mutex_);
-  auto loops = std::make_unique<LoopCloser>(LoopCloserOptions(cameras_), cameras_);
+  auto loops = std::make_unique<LoopCloser>(cameras_);
   loops->SetMap(std::move(map));
   loops_ = std::move(loops);
   images_ = KeyframeImages();

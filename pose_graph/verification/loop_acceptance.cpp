@@ -9,6 +9,9 @@
 namespace plm_vins {
 namespace {
 
+constexpr double kMaxDeviations = 2 * kThreeSigmaOf4Dof;  // Mahalanobis distance of agreeing loops
+constexpr double kMaxWait = 10;                           // time to wait for an agreeing loop [s]
+
 // Returns T_M_O of the later keyframe's odometry world as measured by the loop.
 LevelTransform MapFromOdometry(const std::vector<Keyframe>& keyframes, const PoseGraph& graph,
                                const LoopCandidate& loop) {
@@ -24,19 +27,18 @@ std::vector<LoopCandidate> LoopAcceptance::Judge(const std::vector<Keyframe>& ke
     const LevelTransform predicted =
         graph.node(candidate->earlier).Inverse() * graph.node(candidate->later);
     const double distance = graph.Distance(candidate->earlier, candidate->later);
-    candidate->odometry_error =
-        Deviations(EdgeError(candidate->T_earlier_later, predicted),
-                   candidate->covariance + options_.drift.Covariance(distance));
+    candidate->odometry_error = Deviations(EdgeError(candidate->T_earlier_later, predicted),
+                                           candidate->covariance + kLoopDrift.Covariance(distance));
     if (*candidate->odometry_error <= kThreeSigmaOf4Dof) {
       candidate->failed.reset();
       return {};
     }
-    if (*candidate->odometry_error > options_.max_deviations) return {};
+    if (*candidate->odometry_error > kMaxDeviations) return {};
   }
 
   candidate->failed = LoopGate::kAgreement;
   const auto is_old = [&](const LoopCandidate& other) {
-    return ToSeconds(candidate->later_ns - other.later_ns) > options_.max_wait;
+    return ToSeconds(candidate->later_ns - other.later_ns) > kMaxWait;
   };
   waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), is_old), waiting_.end());
   const auto witness = std::find_if(
@@ -67,7 +69,7 @@ bool LoopAcceptance::Agree(const std::vector<Keyframe>& keyframes, const PoseGra
   const auto covariance = [&graph](const LoopCandidate& loop) {
     return CovarianceInMap(graph.node(loop.earlier), Matrix4d::Zero(), EdgeOf(loop));
   };
-  return Deviations(difference, covariance(a) + covariance(b) + options_.drift.Covariance(way)) <=
+  return Deviations(difference, covariance(a) + covariance(b) + kLoopDrift.Covariance(way)) <=
          kThreeSigmaOf4Dof;
 }
 

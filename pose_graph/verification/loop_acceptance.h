@@ -10,19 +10,14 @@
 
 namespace plm_vins {
 
-struct LoopAcceptanceOptions {
-  DriftBudget drift = {0.05, 0.02, 0.5 * M_PI / 180, 0.05 * M_PI / 180};
-  double max_deviations = 2 * kThreeSigmaOf4Dof;  // Mahalanobis distance of agreeing loops
-  double max_wait = 10;                           // time to wait for an agreeing loop [s]
-};
+// Odometry drift that a loop may correct.
+constexpr DriftBudget kLoopDrift = {0.05, 0.02, 0.5 * M_PI / 180, 0.05 * M_PI / 180};
 
 // Decides on loops that passed the image-based gates: checks them against odometry, and against
 // each other if they request a large correction. Two loops agree if they imply the same T_M_O of
 // the odometry's world.
 class LoopAcceptance {
  public:
-  explicit LoopAcceptance(const LoopAcceptanceOptions& options) : options_(options) {}
-
   // Passes the candidate through the gates kOdometry and kAgreement. Returns the waiting loops, at
   // most one, that are accepted together with it.
   std::vector<LoopCandidate> Judge(const std::vector<Keyframe>& keyframes, const PoseGraph& graph,
@@ -35,7 +30,6 @@ class LoopAcceptance {
   bool Agree(const std::vector<Keyframe>& keyframes, const PoseGraph& graph, const LoopCandidate& a,
              const LoopCandidate& b) const;
 
-  LoopAcceptanceOptions options_;
   std::vector<LoopCandidate> waiting_;
 };
 

@@ -56,6 +56,8 @@ class LoopVerification {
   LoopObservations Verify(const Island& earlier, const Island& later,
                           LoopCandidate* candidate) const;
 
+  double max_error() const { return options_.ransac.max_error; }  // of an inlier (normalized)
+
  private:
   struct Evidence;
 

@@ -80,7 +80,7 @@ void Print(const Round& round, double minutes, const KeyframeMap& map) {
 void Run(const Config& config, const std::vector<Keyframe>& keyframes, double hours) {
   if (keyframes.empty()) throw std::runtime_error("there is no keyframe in the map");
   const CameraModels cameras = CreateAll(config.sensor.cameras);
-  LoopCloser loops(LoopCloserOptions(cameras), cameras);
+  LoopCloser loops(cameras);
   const double seconds = ToSeconds(keyframes.back().t_ns - keyframes.front().t_ns) + kPause;
   for (int round = 0; round * seconds < 3600 * hours; ++round) {
     Print(Fly(keyframes, round, &loops), (round + 1) * seconds / 60, loops.map());

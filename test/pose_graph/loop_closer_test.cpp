@@ -106,7 +106,7 @@ class LoopCloserTest : public ::testing::Test {
 const LevelTransform kDrift = {0.001, {0.05, -0.08, 0.03}};
 
 TEST_F(LoopCloserTest, UndoesTheDriftOfASecondVisit) {
-  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser loops(cameras_);
   const LoopClosure first = Slide(&loops, 0, LevelTransform());
   ASSERT_TRUE(first.fix);
   EXPECT_EQ(first.fix->T_M_O.ToVector(), Vector4d::Zero());
@@ -129,7 +129,7 @@ TEST_F(LoopCloserTest, UndoesTheDriftOfASecondVisit) {
 TEST_F(LoopCloserTest, RecognizesByAnotherCameraWhatTheFirstOneSaw) {
   looks_back_ = true;
   cameras_.push_back(camera_);
-  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser loops(cameras_);
   Slide(&loops, 0, LevelTransform());
   const LoopClosure second = Slide(&loops, 60, kDrift);
   EXPECT_GT(accepted_, 3);
@@ -144,14 +144,14 @@ TEST_F(LoopCloserTest, RecognizesByAnotherCameraWhatTheFirstOneSaw) {
 
 TEST_F(LoopCloserTest, RejectsAMapOfMoreCameras) {
   looks_back_ = true;
-  LoopCloser of_two(LoopCloserOptions({camera_, camera_}), {camera_, camera_});
+  LoopCloser of_two({camera_, camera_});
   Slide(&of_two, 0, LevelTransform());
-  LoopCloser of_one(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser of_one(cameras_);
   EXPECT_THROW(of_one.SetMap(of_two.map()), std::runtime_error);
 }
 
 TEST_F(LoopCloserTest, RelocalizesAfterARestart) {
-  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser loops(cameras_);
   Slide(&loops, 0, LevelTransform());
   const LevelTransform T_O_W = {2.0, {7, 8, 9}};
   const LoopClosure found = Slide(&loops, 10, T_O_W, /*restarted=*/true);
@@ -161,7 +161,7 @@ TEST_F(LoopCloserTest, RelocalizesAfterARestart) {
 }
 
 TEST_F(LoopCloserTest, NewWorldIsNotLocated) {
-  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser loops(cameras_);
   Slide(&loops, 0, LevelTransform());
   OdometryFrame frame = FrameAt(0, 10, {2.0, {7, 8, 9}});
   frame.restarted = true;
@@ -170,9 +170,9 @@ TEST_F(LoopCloserTest, NewWorldIsNotLocated) {
 }
 
 TEST_F(LoopCloserTest, StartsInAnEarlierMap) {
-  LoopCloser before(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser before(cameras_);
   Slide(&before, 0, LevelTransform());
-  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser loops(cameras_);
   loops.SetMap(before.map());
   const LevelTransform T_O_W = {-1.0, {2, 1, 0}};
   const LoopClosure found = Slide(&loops, 5, T_O_W);
@@ -181,9 +181,9 @@ TEST_F(LoopCloserTest, StartsInAnEarlierMap) {
 }
 
 TEST_F(LoopCloserTest, DoesNotMoveALoadedMap) {
-  LoopCloser before(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser before(cameras_);
   Slide(&before, 0, LevelTransform());
-  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser loops(cameras_);
   loops.SetMap(before.map());
   Slide(&loops, 10, LevelTransform());
   const LevelTransform drift = {0, {0.5, 0, 0}};
@@ -208,7 +208,7 @@ TEST_F(LoopCloserTest, DoesNotMoveALoadedMap) {
 
 // A world that is connected with the map meets one that is not.
 TEST_F(LoopCloserTest, MovesAWorldToTheMap) {
-  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser loops(cameras_);
   Slide(&loops, 0, LevelTransform(), false, {-9, -5});
   const int second = loops.map().graph.size();
   EXPECT_FALSE(Slide(&loops, 60, {2.0, {70, 80, 9}}, /*restarted=*/true, {5, 9}).fix);
@@ -224,7 +224,7 @@ TEST_F(LoopCloserTest, MovesAWorldToTheMap) {
 // Odometry after a blind stretch with dead reckoning has a large covariance.
 TEST_F(LoopCloserTest, AcceptsALoopWithinTheDrift) {
   variance_rate_ = 0;
-  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser loops(cameras_);
   Slide(&loops, 0, LevelTransform());
   variance_rate_ = 16.0 / 60;  // 4 m by the second visit
   const LevelTransform drift = {0, {0, 4, 0}};
@@ -235,7 +235,7 @@ TEST_F(LoopCloserTest, AcceptsALoopWithinTheDrift) {
 }
 
 TEST_F(LoopCloserTest, RejectsPerceptualAliasing) {
-  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser loops(cameras_);
   Slide(&loops, 0, LevelTransform());
   // Odometry reaches the same images by a path of 10 m.
   OdometryFrame on_the_way = FrameAt(0, 30, {0, {0, 5, 0}});
@@ -251,7 +251,7 @@ TEST_F(LoopCloserTest, RejectsPerceptualAliasing) {
 // The wall was moved by more than the covariance of odometry, but by less than its possible drift.
 TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
   const LevelTransform moved = {0, {0, 0.3, 0}};
-  LoopCloser unsure(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser unsure(cameras_);
   Slide(&unsure, 0, LevelTransform());
   const LoopClosure accepted = Slide(&unsure, 60, moved);
   ASSERT_TRUE(accepted.place);
@@ -259,7 +259,7 @@ TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
 
   variance_rate_ = 0;
   accepted_ = 0;
-  LoopCloser sure(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser sure(cameras_);
   Slide(&sure, 0, LevelTransform());
   const LoopClosure refused = Slide(&sure, 60, moved);
   EXPECT_EQ(accepted_, 0);
@@ -274,7 +274,7 @@ TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
 
 // Odometry that has just started may have a wrong scale.
 TEST_F(LoopCloserTest, DropsALoopThatAllLaterOnesContradict) {
-  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser loops(cameras_);
   Slide(&loops, 0, LevelTransform());
   variance_rate_ = 1e-7;
   const LevelTransform at_first = {0.016, {0.12, -0.1, 0.05}};
@@ -293,7 +293,7 @@ TEST_F(LoopCloserTest, DropsALoopThatAllLaterOnesContradict) {
 // Odometry jumps after the first loop of the second visit. The next loop, which contradicts it, is
 // less certain.
 TEST_F(LoopCloserTest, DroppedLoopDoesNotLocateAWorld) {
-  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser loops(cameras_);
   Slide(&loops, 0, LevelTransform());
   first_track_ += 100'000'000;
   LoopClosure closure;
@@ -316,7 +316,7 @@ TEST_F(LoopCloserTest, DroppedLoopDoesNotLocateAWorld) {
 }
 
 TEST_F(LoopCloserTest, MapSizeIsBoundedOverManyVisits) {
-  LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+  LoopCloser loops(cameras_);
   std::vector<int> sizes;
   for (int visit = 0; visit < 8; ++visit) {
     Slide(&loops, 60 * visit, kDrift);
@@ -336,7 +336,7 @@ TEST_F(LoopCloserTest, IsTheSameForTheSameInput) {
   std::vector<Vector4d> fixes;
   for (int run = 0; run < 2; ++run) {
     first_track_ = 0;
-    LoopCloser loops(LoopCloserOptions(cameras_), cameras_);
+    LoopCloser loops(cameras_);
     Slide(&loops, 0, LevelTransform());
     fixes.push_back(Slide(&loops, 60, kDrift).fix->T_M_O.ToVector());
   }

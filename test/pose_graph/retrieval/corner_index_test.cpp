@@ -28,7 +28,7 @@ class CornerIndexTest : public ::testing::Test {
     }
   }
 
-  CornerIndex index_{CornerIndexOptions()};
+  CornerIndex index_;
   std::vector<std::vector<Descriptor>> images_;
 };
 

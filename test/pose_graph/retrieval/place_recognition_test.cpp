@@ -30,7 +30,7 @@ class PlaceRecognitionTest : public ::testing::Test {
   }
 
   std::vector<Keyframe> keyframes_;
-  PlaceRecognition recognition_{PlaceRecognitionOptions()};
+  PlaceRecognition recognition_;
 
  private:
   static void AddCorners(int place, int count, Keyframe* keyframe) {

@@ -49,7 +49,7 @@ class LoopAcceptanceTest : public ::testing::Test {
 
   std::vector<Keyframe> keyframes_;
   PoseGraph graph_;
-  LoopAcceptance acceptance_{LoopAcceptanceOptions()};
+  LoopAcceptance acceptance_;
 };
 
 TEST_F(LoopAcceptanceTest, AcceptsLoopsWithinTheDrift) {
@@ -97,7 +97,7 @@ TEST_F(LoopAcceptanceTest, ComparesLoopsAlongTheAxesOfTheMap) {
   AddWay(/*world=*/1, 21);
   graph_.MovePart(0, {M_PI / 2, {0, 0, 0}});
   for (const bool along : {true, false}) {
-    acceptance_ = LoopAcceptance(LoopAcceptanceOptions());
+    acceptance_ = LoopAcceptance();
     LoopCandidate first = Loop(10, 41 + 10, {3, 4, 5});
     LoopCandidate second = Loop(12, 41 + 12, {along ? 4.5 : 3, along ? 4 : 5.5, 5});
     first.covariance(0, 0) = second.covariance(0, 0) = 1;  // along x of the earlier world

@@ -31,7 +31,7 @@ COMMON_LAYERS = {
     "imu": "format.h measurements.h statistics.h streams",
     "features": "measurements.h",
     "io": "format.h measurements.h",
-    "config": "measurements.h geometry camera imu",
+    "config": "format.h measurements.h geometry camera imu",
 }
 TRACKING_LAYERS = {
     "images": "",

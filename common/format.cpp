@@ -18,4 +18,12 @@ std::string Format(const char* format, ...) {
   return text;
 }
 
+std::string JoinTexts(const std::vector<std::string>& texts, const std::string& separator) {
+  std::string joined;
+  for (const std::string& text : texts) {
+    joined += (joined.empty() || text.empty() ? "" : separator) + text;
+  }
+  return joined;
+}
+
 }  // namespace plm_vins

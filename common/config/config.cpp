@@ -9,18 +9,13 @@
 #include "common/config/config_keys.h"
 #include "common/config/nearest_word.h"
 #include "common/config/vins_fusion.h"
+#include "common/format.h"
 
 namespace plm_vins {
 namespace {
 
 bool Contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-std::string JoinWords(const std::vector<std::string>& words, const std::string& separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
 }
 
 bool IsInGroup(const std::string& key, const std::string& group) {
@@ -95,7 +90,7 @@ class Loader {
     }
     const auto keys = KeysOfGroup(name);
     if (!keys.empty()) {
-      return Add(name, "must be a group of keys, indented below it: " + JoinWords(keys, ", "));
+      return Add(name, "must be a group of keys, indented below it: " + JoinTexts(keys, ", "));
     }
     // Calibration keys are not reported if the camera model is unknown, since the model determines
     // the valid ones.
@@ -134,7 +129,7 @@ class Loader {
   void AddWarnings() {
     if (!ignored_.empty()) {
       config_.warnings.push_back(config_.file +
-                                 ": keys without effect: " + JoinWords(ignored_, ", "));
+                                 ": keys without effect: " + JoinTexts(ignored_, ", "));
     }
     CheckIntention(entries_, config_, [this](const std::string& key, const std::string& text) {
       config_.warnings.push_back(At(key) + text);
@@ -163,7 +158,7 @@ class Loader {
 }  // namespace
 
 ConfigError::ConfigError(const std::vector<std::string>& problems)
-    : std::runtime_error(JoinWords(problems, "\n")), problems_(problems) {}
+    : std::runtime_error(JoinTexts(problems, "\n")), problems_(problems) {}
 
 Config LoadConfig(const std::string& file, const std::map<std::string, std::string>& overrides,
                   const std::string& override_prefix) {

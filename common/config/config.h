@@ -12,11 +12,10 @@
 
 #include "common/config/config_value.h"
 #include "common/config/estimator_config.h"
-#include "common/config/line_tracker_config.h"
 #include "common/config/output_config.h"
-#include "common/config/point_tracker_config.h"
 #include "common/config/pose_graph_config.h"
 #include "common/config/sensor_config.h"
+#include "common/config/tracker_config.h"
 
 namespace plm_vins {
 

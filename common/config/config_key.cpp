@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/format.h"
+
 namespace plm_vins {
 namespace {
 
@@ -127,8 +129,7 @@ ConfigKey ConfigKey::OneOf(const std::string& name, const std::vector<std::strin
                            const std::function<bool(size_t)>& is) {
   ConfigKey key;
   key.name = name;
-  for (const std::string& word : words) key.allowed += (key.allowed.empty() ? "" : ", ") + word;
-  key.allowed = "one of " + key.allowed;
+  key.allowed = "one of " + JoinTexts(words, ", ");
   key.read = [=, allowed = key.allowed](const YAML::Node& value) -> Problem {
     const auto text = ScalarText(value);
     const auto word = text ? std::find(words.begin(), words.end(), *text) : words.end();

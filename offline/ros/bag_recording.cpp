@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "common/config/sensor_config.h"
+#include "common/format.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
@@ -41,12 +42,6 @@ std::optional<TypedTopic> Find(const TypedTopics& topics, const std::string& top
     if (AbsoluteTopic(typed.first) == AbsoluteTopic(topic) && typed.second == type) return typed;
   }
   return std::nullopt;
-}
-
-std::string Join(const std::vector<std::string>& files) {
-  std::string text;
-  for (const std::string& file : files) text += (text.empty() ? "" : " ") + file;
-  return text;
 }
 
 std::string Missing(const std::string& key, const std::string& topic, const std::string& type) {
@@ -88,7 +83,7 @@ class BagRecording : public Recording {
  public:
   BagRecording(const std::vector<std::string>& files, const std::vector<std::string>& image_topics,
                const std::string& imu_topic, const std::string& depth_topic)
-      : name_(Join(files)) {
+      : name_(JoinTexts(files, " ")) {
     rosbag::View all;
     for (const std::string& file : files) {
       bags_.push_back(OpenBag(file));

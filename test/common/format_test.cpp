@@ -18,5 +18,10 @@ TEST(Format, WritesTextsOfAnyLength) {
   EXPECT_EQ(Format("<%s>", text.c_str()), "<" + text + ">");
 }
 
+TEST(JoinTexts, LeavesOutEmptyOnes) {
+  EXPECT_EQ(JoinTexts({"", "a", "", "b", ""}, "; "), "a; b");
+  EXPECT_EQ(JoinTexts({}, ", "), "");
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/ros/estimator_diagnostics.h"
 
-#include <cmath>
-
 #include "common/append.h"
+#include "common/format.h"
 
 namespace plm_vins {
 
@@ -82,22 +81,22 @@ void EstimatorDiagnostics::Report(size_t queued,
 }
 
 void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapper* status) {
-  std::string state = State();
+  const std::string state = State();
   const bool tracking = state == ToString(EstimatorStatus::kTracking);
-  if (lines_are_missing_) state += "; points only: no lines arrive in time on " + lines_topic_;
   const bool late = tracking && pose_age_ > kMaxPoseAge;
-  if (late)
-    state += "; late: poses are " + std::to_string(std::lround(1e3 * pose_age_)) + " ms old";
-  if (newest_.on_imu_alone) state += "; blind: dead reckoning by the IMU";
-  if (!input_finding_.text.empty()) state += "; " + input_finding_.text;
-  if (!imu_contradiction_.empty()) state += "; " + imu_contradiction_;
-  if (!lens_warning_.empty()) state += "; " + lens_warning_;
-  if (!sensor_faults_.empty()) state += "; " + sensor_faults_;
-  if (newest_.contradicted) state += "; the camera contradicts the state";
   const bool fine = tracking && !lines_are_missing_ && !late && !newest_.on_imu_alone &&
                     !newest_.contradicted && !input_finding_.is_present &&
                     imu_contradiction_.empty() && lens_warning_.empty() && sensor_faults_.empty();
-  status->summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, state);
+  status->summary(
+      fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+      JoinTexts(
+          {state,
+           lines_are_missing_ ? "points only: no lines arrive in time on " + lines_topic_ : "",
+           late ? Format("late: poses are %.0f ms old", 1e3 * pose_age_) : "",
+           newest_.on_imu_alone ? "blind: dead reckoning by the IMU" : "", input_finding_.text,
+           imu_contradiction_, lens_warning_, sensor_faults_,
+           newest_.contradicted ? "the camera contradicts the state" : ""},
+          "; "));
 }
 
 std::string EstimatorDiagnostics::State() const {

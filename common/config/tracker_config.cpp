@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/config/point_tracker_config.h"
+#include "common/config/tracker_config.h"
 
 namespace plm_vins {
 
@@ -20,6 +20,20 @@ ConfigKeys PointTrackerKeys(PointTrackerConfig* points) {
       Key::Text("fisheye_mask", &points->fisheye_mask),
       Key::Integer("klt_window", "px", {5, 101}, &points->klt_window),
       Key::Integer("klt_levels", "", {0, 8}, &points->klt_levels),
+  };
+}
+
+ConfigKeys LineTrackerKeys(LineTrackerConfig* lines) {
+  using Key = ConfigKey;
+  return {
+      Key::Choice<LineDetectorType>("line_detector",
+                                    {{"fld", LineDetectorType::kFld},
+                                     {"lsd", LineDetectorType::kLsd},
+                                     {"edlines", LineDetectorType::kEdLines}},
+                                    &lines->line_detector),
+      Key::Integer("max_line_cnt", "lines", {1, 5000}, &lines->max_lines),
+      Key::Number("line_min_length", "", {0.01, 1}, &lines->min_length),
+      Key::Flag("line_half_resolution", &lines->half_resolution),
   };
 }
 

@@ -20,10 +20,12 @@ import unittest
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "test" / "tools")]
 
 from evaluation import metrics  # noqa: E402
 from evaluation.trajectory import read_trajectory  # noqa: E402
+from stress import feature_file  # noqa: E402
+from stress.faults import FAULTS  # noqa: E402
 
 CONFIG = ROOT / "config" / "euroc.yaml"
 SIMULATE, RUN_OFFLINE, SECOND = sys.argv[1:4] if len(sys.argv) > 3 else sys.exit(__doc__)
@@ -110,6 +112,8 @@ class RunFlight(unittest.TestCase):
             again.communicate(timeout=PATIENCE)
             summary = (self.folder / "again" / "summary.json").read_text(encoding="utf-8")
             self.assertEqual(json.loads(summary)["frames"], frames)
+            feature_file.make_faulty(saved[-1], self.folder / "copy", FAULTS["none"].apply, 0)
+            self.assertEqual((self.folder / "copy").read_bytes(), saved[-1].read_bytes())
         self.run_flight(self.flights / "first", "--map-in", self.folder / "map.plm")
 
     def test_a_second_signal_ends_the_program_at_once(self):

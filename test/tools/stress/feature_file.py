@@ -8,15 +8,16 @@ import numpy as np
 
 from .measurements import Measurements
 
-SIGNATURE = b"plm_features v2\n"  # followed by the trackers' values, as text
+SIGNATURE = b"plm_features v3\n"  # followed by the trackers' values, as text
 IMU, POINTS, POINTS_AND_LINES = 1, 2, 3
 IMU_LAYOUT = struct.Struct("<q6d")
 TRACKING = struct.Struct("<q2?d")  # timestamp, restart, publish, milliseconds
 POINT_STATISTICS_SIZE = 6 * 4
 LINE_STATISTICS_SIZE = 5 * 4 + 1 + 3 * 4 + 8
 SIZE = struct.Struct("<I")
-POINT = np.dtype([("id", "<i8"), ("xy", "<f8", 2), ("uv", "<f8", 2), ("velocity", "<f8", 2)])
-LINE_SIZE = 8 + 4 * 8
+POINT = np.dtype([("id", "<i8"), ("camera", "<i4"), ("xy", "<f8", 2), ("uv", "<f8", 2),
+                  ("velocity", "<f8", 2), ("has_depth", "?")])  # none has a depth
+LINE_SIZE = 8 + 4 + 6 * 8
 
 
 class Features:

@@ -33,10 +33,10 @@ std::optional<Failure> EstimateMonitor::Judge(const Evidence& evidence) {
                                                     evidence.pose_covariance)) {
     return Failure{*blindness, /*has_drifted=*/true};
   }
-  if (const auto runaway = DetectRunaway(FailureLimits(), evidence.time_offset_change)) {
+  if (const auto runaway = DetectRunaway(evidence.time_offset_change)) {
     return Failure{*runaway, /*has_drifted=*/true};
   }
-  if (const auto jump = DetectFailure(FailureLimits(), evidence.predicted, newest)) {
+  if (const auto jump = DetectFailure(evidence.predicted, newest)) {
     return Failure{*jump};
   }
   return std::nullopt;

@@ -11,6 +11,15 @@
 namespace plm_vins {
 namespace {
 
+// Bounds outside of which the estimate of a robot with a working IMU is implausible.
+constexpr double kMaxAccelBias = 3.0;         // [m/s^2]
+constexpr double kMaxGyroBias = 0.5;          // [rad/s]
+constexpr double kMaxVelocity = 50.0;         // [m/s]
+constexpr double kMaxVelocityJump = 3.0;      // correction of the velocity by one image [m/s]
+constexpr double kMaxPositionJump = 2.0;      // correction of the position by one image [m]
+constexpr double kMaxRotationJump = 0.7;      // correction of the rotation by one image [rad]
+constexpr double kMaxTimeOffsetChange = 0.2;  // between estimated and configured td [s]
+
 constexpr double kMaxRejectedShare = 0.25;  // a few percent in normal flight
 constexpr int kMinRejected = 5;             // at first; outlier rejection leaves fewer later
 constexpr double kMaxContradiction = 0.5;   // [s]
@@ -34,19 +43,18 @@ std::optional<std::string> Exceeds(const char* what, double value, double limit,
 
 }  // namespace
 
-std::optional<std::string> DetectFailure(const FailureLimits& limits, const FrameState& predicted,
-                                         const FrameState& optimized) {
+std::optional<std::string> DetectFailure(const FrameState& predicted, const FrameState& optimized) {
   if (!IsFinite(optimized)) return "the optimization returned non-finite values";
   const double turn = predicted.rotation().angularDistance(optimized.rotation());
   const std::optional<std::string> causes[] = {
-      Exceeds("accelerometer bias", optimized.accel_bias().norm(), limits.accel_bias, "m/s^2"),
-      Exceeds("gyro bias", optimized.gyro_bias().norm(), limits.gyro_bias, "rad/s"),
-      Exceeds("velocity", optimized.velocity().norm(), limits.velocity, "m/s"),
+      Exceeds("accelerometer bias", optimized.accel_bias().norm(), kMaxAccelBias, "m/s^2"),
+      Exceeds("gyro bias", optimized.gyro_bias().norm(), kMaxGyroBias, "rad/s"),
+      Exceeds("velocity", optimized.velocity().norm(), kMaxVelocity, "m/s"),
       Exceeds("correction of velocity", (optimized.velocity() - predicted.velocity()).norm(),
-              limits.velocity_jump, "m/s"),
+              kMaxVelocityJump, "m/s"),
       Exceeds("correction of position", (optimized.position() - predicted.position()).norm(),
-              limits.position_jump, "m"),
-      Exceeds("correction of rotation", turn, limits.rotation_jump, "rad"),
+              kMaxPositionJump, "m"),
+      Exceeds("correction of rotation", turn, kMaxRotationJump, "rad"),
   };
   for (const auto& cause : causes) {
     if (cause) return cause;
@@ -54,9 +62,9 @@ std::optional<std::string> DetectFailure(const FailureLimits& limits, const Fram
   return std::nullopt;
 }
 
-std::optional<std::string> DetectRunaway(const FailureLimits& limits, double time_offset_change) {
+std::optional<std::string> DetectRunaway(double time_offset_change) {
   if (!std::isfinite(time_offset_change)) return "td is not finite";
-  return Exceeds("change of td", std::abs(time_offset_change), limits.time_offset, "s");
+  return Exceeds("change of td", std::abs(time_offset_change), kMaxTimeOffsetChange, "s");
 }
 
 std::optional<std::string> ContradictionMonitor::Add(int64_t t_ns, int landmarks, int rejected) {

@@ -12,25 +12,13 @@ namespace plm_vins {
 
 constexpr int kFewFeatures = 6;  // fewer points and lines do not constrain a pose
 
-// Bounds outside of which the estimate of a robot with a working IMU is implausible.
-struct FailureLimits {
-  double accel_bias = 3.0;     // [m/s^2]
-  double gyro_bias = 0.5;      // [rad/s]
-  double velocity = 50.0;      // [m/s]
-  double velocity_jump = 3.0;  // correction of the velocity by one image [m/s]
-  double position_jump = 2.0;  // correction of the position by one image [m]
-  double rotation_jump = 0.7;  // correction of the rotation by one image [rad]
-  double time_offset = 0.2;    // between estimated and configured td [s]
-};
-
 // Returns the reason if the optimized newest state is implausible, given its prediction by the IMU;
 // nullopt if it is plausible.
-std::optional<std::string> DetectFailure(const FailureLimits& limits, const FrameState& predicted,
-                                         const FrameState& optimized);
+std::optional<std::string> DetectFailure(const FrameState& predicted, const FrameState& optimized);
 
 // Returns the reason if the estimated time offset is implausible, given its difference from the
 // configured one [s]; nullopt if it is plausible.
-std::optional<std::string> DetectRunaway(const FailureLimits& limits, double time_offset_change);
+std::optional<std::string> DetectRunaway(double time_offset_change);
 
 // Detects that the camera contradicts the state for a while: in consecutive images, a large share
 // of the observed landmarks are outliers. A single bad IMU sample can cause this without exceeding

@@ -8,7 +8,8 @@ namespace plm_vins {
 namespace {
 
 constexpr double kQuarterTurn = M_PI / 2;
-constexpr int kBins = 90;  // bins of 1 deg each, to search for the best heading
+constexpr double kHalfWidth = M_PI / 60;  // votes this close support a heading (3 deg) [rad]
+constexpr int kBins = 90;                 // bins of 1 deg each, to search for the best heading
 constexpr double kForgottenWeight = 0.03;
 
 // Returns the logarithm of a bound on the probability that independent votes of total weight
@@ -29,7 +30,7 @@ double WrapQuarterTurn(double angle) {
 }
 
 void HeadingVotes::Fade(double elapsed) {
-  const double factor = std::exp(-elapsed / options_.memory);
+  const double factor = std::exp(-elapsed / kMemory);
   for (auto it = votes_.begin(); it != votes_.end();) {
     it->second.freshness *= factor;
     it = MatureWeight(it->second) < kForgottenWeight ? votes_.erase(it) : std::next(it);
@@ -47,12 +48,12 @@ void HeadingVotes::Cast(int64_t id, double heading, double sigma, double elapsed
 }
 
 double HeadingVotes::MatureWeight(const Vote& vote) const {
-  const double deviation = vote.sigma / options_.reference_sigma;
+  const double deviation = vote.sigma / kReferenceSigma;
   return vote.freshness / (1 + deviation * deviation);
 }
 
 double HeadingVotes::Weight(const Vote& vote) const {
-  return std::min(1.0, vote.followed / options_.maturity) * MatureWeight(vote);
+  return std::min(1.0, vote.followed / kMaturity) * MatureWeight(vote);
 }
 
 HeadingSupport HeadingVotes::At(double heading) const {
@@ -62,7 +63,7 @@ HeadingSupport HeadingVotes::At(double heading) const {
     const double weight = Weight(vote);
     support.total += weight;
     const double deviation = WrapQuarterTurn(vote.heading - heading);
-    if (weight <= 0 || std::abs(deviation) > options_.half_width) continue;
+    if (weight <= 0 || std::abs(deviation) > kHalfWidth) continue;
     support.weight += weight;
     sum += weight * deviation;
     sum_squares += weight * deviation * deviation;
@@ -75,7 +76,7 @@ HeadingSupport HeadingVotes::At(double heading) const {
     support.heading = WrapQuarterTurn(heading + mean);
     support.sigma = std::sqrt(variance / support.weight);
   }
-  const double chance = 2 * options_.half_width / kQuarterTurn;
+  const double chance = 2 * kHalfWidth / kQuarterTurn;
   support.log_false_alarms = std::log(kBins) + LogTail(support.weight, support.total, chance);
   return support;
 }
@@ -92,7 +93,7 @@ HeadingSupport HeadingVotes::Best() const {
 }
 
 // Returns the center of the window with the greatest weight, at the resolution of the bins. All
-// summed bins lie entirely within half_width of it.
+// summed bins lie entirely within kHalfWidth of it.
 double HeadingVotes::DensestHeading() const {
   constexpr double kBinWidth = kQuarterTurn / kBins;
   std::array<double, kBins> histogram{};
@@ -100,7 +101,7 @@ double HeadingVotes::DensestHeading() const {
     const int bin = static_cast<int>((vote.heading + kQuarterTurn / 2) / kBinWidth);
     histogram[std::min(bin, kBins - 1)] += Weight(vote);
   }
-  const int reach = static_cast<int>(options_.half_width / kBinWidth - 0.5);
+  const int reach = static_cast<int>(kHalfWidth / kBinWidth - 0.5);
   int densest = 0;
   double greatest = -1;
   for (int center = 0; center < kBins; ++center) {

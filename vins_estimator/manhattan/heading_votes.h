@@ -10,13 +10,6 @@ namespace plm_vins {
 // Wraps `angle` into [-45 deg, 45 deg), modulo 90 deg [rad].
 double WrapQuarterTurn(double angle);
 
-struct HeadingVotesOptions {
-  double half_width = M_PI / 60;  // votes this close support a heading (3 deg) [rad]
-  double memory = 15.0;           // time constant with which the vote of a lost line decays [s]
-  double maturity = 0.5;          // a line tracked for this long has its full vote [s]
-  double reference_sigma = M_PI / 90;  // standard deviation (2 deg) that halves the vote [rad]
-};
-
 // Support of one heading by the votes.
 struct HeadingSupport {
   double heading = 0;  // mean of the supporting votes, in [-45 deg, 45 deg) [rad]
@@ -38,7 +31,9 @@ struct HeadingSupport {
 // more support than chance would give it.
 class HeadingVotes {
  public:
-  explicit HeadingVotes(const HeadingVotesOptions& options = {}) : options_(options) {}
+  static constexpr double kMemory = 15;     // time constant of the vote of a lost line [s]
+  static constexpr double kMaturity = 0.5;  // a line tracked for this long has its full vote [s]
+  static constexpr double kReferenceSigma = M_PI / 90;  // halves the vote (2 deg) [rad]
 
   // Lets all votes decay by `elapsed` [s] and drops those whose weight would be negligible even at
   // full maturity.
@@ -71,7 +66,6 @@ class HeadingVotes {
   double Weight(const Vote& vote) const;
   double DensestHeading() const;
 
-  HeadingVotesOptions options_;
   std::map<int64_t, Vote> votes_;  // ordered: sums are the same in every run
 };
 

@@ -8,12 +8,36 @@
 namespace plm_vins {
 namespace {
 
+constexpr double kAxisSigma = M_PI / 180;      // deviation of built lines from their axis [rad]
+constexpr double kMaxLineSigma = M_PI / 60;    // lines less certain than this do not vote [rad]
+constexpr double kMaxTolerance = M_PI / 45;    // greatest angle between a line and its axis [rad]
+constexpr double kLockFalseAlarms = 1e-5;      // a heading with fewer expected ones is significant
+constexpr double kKeepFalseAlarms = 1;         // a heading with more is no better than chance
+constexpr double kLockShare = 0.45;            // of the horizontal lines that support the heading
+constexpr double kLockSigma = M_PI / 900;      // greatest standard error of the heading [rad]
+constexpr int kLockLines = 15;                 // least number of distinct supporting lines
+constexpr double kLockAfter = 5;               // time for which it must have been a candidate [s]
+constexpr double kCandidateShift = M_PI / 90;  // a candidate that moves further is a new one [rad]
+constexpr double kRevokeAfter = 3;             // duration of a contradiction that revokes it [s]
+constexpr double kRevokeShift = M_PI / 180;  // shift of the mean heading that contradicts it [rad]
+
 // Returns the angle between a line's direction and an axis, regardless of sign [rad].
 double AngleBetween(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis) {
   return std::atan2(direction.cross(axis).norm(), std::abs(direction.dot(axis)));
 }
 
+bool IsSignificant(const HeadingSupport& support) {
+  return support.log_false_alarms < std::log(kLockFalseAlarms) && support.share() > kLockShare &&
+         support.lines >= kLockLines && support.sigma < kLockSigma;
+}
+
+double Tolerance(double sigma) {
+  return std::min(kMaxTolerance, 3 * std::hypot(sigma, kAxisSigma));
+}
+
 }  // namespace
+
+bool ManhattanFrame::IsKnownWell(const LineDirection& line) { return line.sigma < kMaxLineSigma; }
 
 void ManhattanFrame::Update(int64_t t_ns, const std::vector<LineDirection>& lines) {
   const double elapsed = last_ns_ ? ToSeconds(t_ns - *last_ns_) : 0;
@@ -40,12 +64,11 @@ void ManhattanFrame::Vote(const std::vector<LineDirection>& lines, double elapse
 // Tracks the best supported heading and locks it once it was significant for long enough.
 void ManhattanFrame::Search(int64_t t_ns) {
   support_ = votes_.Best();
-  const bool goes_on =
-      state_ == ManhattanState::kCandidate &&
-      std::abs(WrapQuarterTurn(support_.heading - heading_)) < options_.candidate_shift &&
-      support_.log_false_alarms < std::log(options_.keep_false_alarms);
+  const bool goes_on = state_ == ManhattanState::kCandidate &&
+                       std::abs(WrapQuarterTurn(support_.heading - heading_)) < kCandidateShift &&
+                       support_.log_false_alarms < std::log(kKeepFalseAlarms);
   if (!goes_on) {
-    if (!Significant(support_)) {
+    if (!IsSignificant(support_)) {
       if (state_ == ManhattanState::kCandidate) state_ = ManhattanState::kAbsent;
       return;
     }
@@ -53,7 +76,7 @@ void ManhattanFrame::Search(int64_t t_ns) {
     heading_ = support_.heading;
     since_ns_ = t_ns;
   }
-  if (ToSeconds(t_ns - *since_ns_) < options_.lock_after || !Significant(support_)) return;
+  if (ToSeconds(t_ns - *since_ns_) < kLockAfter || !IsSignificant(support_)) return;
   state_ = ManhattanState::kLocked;
   heading_ = support_.heading;
   since_ns_.reset();
@@ -67,30 +90,20 @@ void ManhattanFrame::Check(int64_t t_ns) {
     return;
   }
   if (!since_ns_) since_ns_ = t_ns;
-  if (ToSeconds(t_ns - *since_ns_) < options_.revoke_after) return;
+  if (ToSeconds(t_ns - *since_ns_) < kRevokeAfter) return;
   state_ = ManhattanState::kRevoked;
   votes_.Clear();
   since_ns_.reset();
 }
 
-bool ManhattanFrame::Significant(const HeadingSupport& support) const {
-  return support.log_false_alarms < std::log(options_.lock_false_alarms) &&
-         support.share() > options_.lock_share && support.lines >= options_.lock_lines &&
-         support.sigma < options_.lock_sigma;
-}
-
 // Returns whether the lines significantly support another heading, or their mean heading has
 // shifted.
 bool ManhattanFrame::Contradicted() const {
-  if (support_.log_false_alarms > std::log(options_.keep_false_alarms)) {
-    return Significant(votes_.Best());
+  if (support_.log_false_alarms > std::log(kKeepFalseAlarms)) {
+    return IsSignificant(votes_.Best());
   }
   const double shift = std::abs(WrapQuarterTurn(support_.heading - heading_));
-  return shift > options_.revoke_shift + 3 * support_.sigma;
-}
-
-double ManhattanFrame::Tolerance(double sigma) const {
-  return std::min(options_.max_tolerance, 3 * std::hypot(sigma, options_.axis_sigma));
+  return shift > kRevokeShift + 3 * support_.sigma;
 }
 
 std::optional<Eigen::Quaterniond> ManhattanFrame::R_W_M() const {

@@ -97,7 +97,7 @@ TEST(EstimateMonitor, FailsOnADivergedTimeOffset) {
 TEST(EstimateMonitor, FailsOnAStateJump) {
   EstimateMonitor monitor;
   EstimateMonitor::Evidence evidence = Good(0);
-  evidence.newest.position().x() += 2 * FailureLimits().position_jump;
+  evidence.newest.position().x() += 4;
   const auto failure = monitor.Add(evidence);
   ASSERT_TRUE(failure);
   EXPECT_FALSE(failure->has_drifted);

@@ -19,9 +19,7 @@ using Eigen::Vector3d;
 class FailureDetectorTest : public ::testing::Test {
  protected:
   // Returns the failure, or an empty string.
-  std::string Detect() const {
-    return DetectFailure(FailureLimits(), predicted_, optimized_).value_or("");
-  }
+  std::string Detect() const { return DetectFailure(predicted_, optimized_).value_or(""); }
 
   FrameState predicted_, optimized_;
 };

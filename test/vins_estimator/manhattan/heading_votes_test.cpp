@@ -48,13 +48,13 @@ TEST(HeadingVotes, CountLongFollowedLinesMore) {
   HeadingVotes brief, lasting;
   Poll(&brief, 1, 1, 0.1, 0, 0.2);
   Poll(&lasting, 1, 1, 0.1, 0, 2.0);
-  EXPECT_NEAR(brief.Best().total, 0.2 / HeadingVotesOptions().maturity, 1e-9);
+  EXPECT_NEAR(brief.Best().total, 0.2 / HeadingVotes::kMaturity, 1e-9);
   EXPECT_NEAR(lasting.Best().total, 1, 1e-9);
 }
 
 TEST(HeadingVotes, CountAccurateLinesMore) {
   HeadingVotes votes;
-  votes.Cast(1, 0.1, HeadingVotesOptions().reference_sigma, 1.0);
+  votes.Cast(1, 0.1, HeadingVotes::kReferenceSigma, 1.0);
   EXPECT_NEAR(votes.Best().total, 0.5, 1e-9);
 }
 
@@ -70,7 +70,7 @@ TEST(HeadingVotes, KeepTheMostCertainVoteOfALine) {
 TEST(HeadingVotes, FadeAndAreForgotten) {
   HeadingVotes votes;
   Poll(&votes, 1, 10, 0.1, 0, 2);
-  const double memory = HeadingVotesOptions().memory;
+  const double memory = HeadingVotes::kMemory;
   votes.Fade(memory);
   EXPECT_NEAR(votes.Best().total, 10 * std::exp(-1), 1e-6);
   votes.Fade(4 * memory);
@@ -79,7 +79,7 @@ TEST(HeadingVotes, FadeAndAreForgotten) {
 
 TEST(HeadingVotes, MatureAtAnyFrameRate) {
   constexpr double kSigma = 3 * kDegree;
-  const double full = 1 / (1 + std::pow(kSigma / HeadingVotesOptions().reference_sigma, 2));
+  const double full = 1 / (1 + std::pow(kSigma / HeadingVotes::kReferenceSigma, 2));
   for (const int rate : {10, 20, 30, 60, 200}) {
     HeadingVotes votes;
     for (int image = 0; image < rate; ++image) {

@@ -162,12 +162,6 @@ class RunFlight(unittest.TestCase):
         self.assertEqual(len(read_trajectory(self.results / "trajectory_final.tum")),
                          self.summary()["poses"])
 
-    def test_the_map_is_adjusted(self):
-        error = self.run_flight(self.flights / "second", "--set", "loop_closure=1")
-        bundle = self.summary()["loops"]["bundle"]
-        self.assertIn(f"adjusting the map of {bundle['keyframes']} keyframes\n", error)
-        self.assertEqual(bundle["rounds"], 3)
-
     def test_results_stay_where_the_map_and_features_cannot_be_saved(self):
         gone = self.folder / "gone"
         gone.mkdir()
@@ -181,17 +175,6 @@ class RunFlight(unittest.TestCase):
         self.assertIn("loops", self.summary())
         self.assertEqual(len(read_trajectory(self.results / "trajectory_final.tum")),
                          self.summary()["poses"])
-
-    def test_all_that_cannot_be_written_is_named(self):
-        gone = self.folder / "gone"
-        gone.mkdir()
-        process = self.start_first("--map-out", gone / "map.plm")
-        shutil.rmtree(gone)
-        (self.results / "trajectory_final.tum").mkdir()
-        error = process.communicate(timeout=PATIENCE)[1]
-        self.assertEqual(process.returncode, 1, error)
-        self.assertIn(f"cannot write {gone / 'map.plm'}", error)
-        self.assertIn("trajectory_final.tum", error)
 
     def copy_with_imu(self, change):
         """The first flight with other rows of the IMU: those that `change` makes of stamp [ns] and
@@ -230,16 +213,12 @@ class RunFlight(unittest.TestCase):
         self.assertIn("a gap of 3.0 s in the IMU samples: ", error)
         self.assertRegex(error, "no pose for [0-9.]+ of [0-9.]+ s: no usable image .3.[0-9] s.")
 
-    def test_the_end_of_a_good_run(self):
-        lines = self.run_flight(self.flights / "first").splitlines()
-        self.assertRegex(lines[-3], "100 images, [0-9]+ poses in ")
-        self.assertRegex(lines[-2], "^1 world frame: from [0-9.]+ s on$")
-        self.assertRegex(lines[-1], "^no pose for [0-9.]+ of 9.9 s: ")
-
     def test_a_second_flight_in_the_map_of_the_first(self):
         second = self.flights / "second"
         plm = self.folder / "map.plm"
-        self.run_flight(self.flights / "first", "--map-out", plm)
+        said = self.run_flight(self.flights / "first", "--map-out", plm)
+        self.assertRegex(said, r"\n100 images, \d+ poses in .*\n1 world frame: from [\d.]+ s on\n"
+                               r"no pose for [\d.]+ of 9.9 s: ")
         mapped = read_trajectory(self.results / "trajectory_final.tum")
         truth = read_trajectory(self.flights / "first" / "groundtruth.tum")
         rotation, translation = metrics.alignment(mapped, truth.at(mapped.stamps), "se3")

@@ -19,8 +19,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -30,11 +28,6 @@
 #include <vector>
 
 namespace {
-
-namespace fs = std::filesystem;
-
-// Folder of this program and the nodes.
-std::string ProgramFolder() { return fs::read_symlink("/proc/self/exe").parent_path().string(); }
 
 // All messages of a topic.
 template <typename Message>
@@ -314,17 +307,5 @@ TEST_F(Nodes, SaveTheTrajectoryAndResetByService) {
   const auto statuses = Statuses(log_->diagnostics, "vins_estimator: odometry");
   EXPECT_EQ(statuses.back().at("resets"), "1");
 }
-
-class Node : public ::testing::TestWithParam<const char*> {};
-
-TEST_P(Node, DoesNotStartWithoutConfiguration) {
-  const std::string command = "timeout 30 " + ProgramFolder() + "/" + GetParam() +
-                              " __name:=another _config_file:=/no/such/file.yaml >/dev/null 2>&1";
-  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
-}
-
-INSTANTIATE_TEST_SUITE_P(All, Node,
-                         ::testing::Values("feature_tracker", "linefeature_tracker",
-                                           "vins_estimator"));
 
 }  // namespace

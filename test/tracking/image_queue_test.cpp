@@ -124,14 +124,6 @@ TEST_F(ImageQueueTest, DropsWhatIsTooLateWithoutAGyro) {
   EXPECT_EQ(queue_.counts().too_late, 40);
 }
 
-TEST_F(ImageQueueTest, AStallWithinTheAgeLimitLosesNothing) {
-  queue_ = ImageQueue(StillConfig(), /*max_wait=*/0.5);
-  AddImu(-10, 500);
-  for (int t = 0; t <= 500; t += 50) AddImage(t);
-  EXPECT_EQ(Pop().size(), 11u);
-  EXPECT_EQ(queue_.counts().too_late, 0);
-}
-
 TEST_F(ImageQueueTest, AGyroThatEndsDelaysNoLongerThanHalfASecondOnce) {
   AddImu(-10, 0);
   AddImage(0);

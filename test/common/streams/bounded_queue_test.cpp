@@ -14,13 +14,6 @@ namespace {
 // Waits until another thread blocks.
 void LetItWait() { std::this_thread::sleep_for(std::chrono::milliseconds(50)); }
 
-TEST(BoundedQueue, KeepsTheOrder) {
-  BoundedQueue<int> queue(3);
-  for (int i = 0; i < 3; ++i) EXPECT_TRUE(queue.Push(i));
-  EXPECT_EQ(queue.size(), 3u);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(queue.Pop(), i);
-}
-
 TEST(BoundedQueue, HoldsItemsThatCanOnlyBeMoved) {
   BoundedQueue<std::unique_ptr<int>> queue(1);
   queue.Push(std::make_unique<int>(7));

@@ -191,16 +191,6 @@ TEST(ResultFiles, HoldTheRefinedCalibration) {
   EXPECT_EQ(calibrated(Config(), frame), "") << "nothing was refined";
 }
 
-TEST(ResultFiles, MarkANewWorldFrameBetweenRows) {
-  const testing::TemporaryFolder folder;
-  PipelineFrame restart = MakeFrame(2'000'000'000, false);
-  restart.output.restarted = true;
-  restart.output.reason = "it flew away";
-  WriteResults(folder, {MakeFrame(1'000'000'000, true), restart, MakeFrame(3'000'000'000, true)});
-  EXPECT_THAT(folder.Read("trajectory.tum"),
-              HasSubstr("\n# the world frame starts anew: it flew away\n3.000000000 "));
-}
-
 TEST(ResultFiles, KeepPosesBeforeABackwardJumpInSeparateFiles) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
@@ -307,15 +297,6 @@ TEST(ResultFiles, AreCompleteDespiteAnUnwritablePicture) {
   EXPECT_EQ(results.unwritten_pictures().count, 2);
   EXPECT_EQ(results.unwritten_pictures().detail, folder.File("tracks.png"));
   EXPECT_TRUE(fs::exists(folder.File("summary.json")));
-}
-
-TEST(ResultFiles, ErrorNamesAFolderThatCannotBeMade) {
-  const testing::TemporaryFolder folder;
-  folder.Write("file", "");
-  EXPECT_THAT(testing::MessageOf([&] { ResultFiles(folder.File("file")); }),
-              HasSubstr(folder.File("file")));
-  EXPECT_THAT(testing::MessageOf([&] { ResultFiles(folder.File("file/below")); }),
-              HasSubstr(folder.File("file/below")));
 }
 
 }  // namespace

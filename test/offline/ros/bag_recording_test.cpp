@@ -3,12 +3,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <ros/message_traits.h>
 #include <rosbag/bag.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <std_msgs/Bool.h>
 
+#include <algorithm>
+#include <boost/make_shared.hpp>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
@@ -71,6 +74,18 @@ sensor_msgs::Imu Imu(int i) {
   return imu;
 }
 
+// Writes as a separate publisher. Without this header, all messages of a topic have one type in the
+// bag.
+template <typename Message>
+void WriteApart(const std::string& topic, int i, const Message& message, rosbag::Bag* bag) {
+  const auto header = boost::make_shared<ros::M_string>();
+  (*header)["topic"] = topic;
+  (*header)["type"] = ros::message_traits::datatype<Message>();
+  (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
+  (*header)["message_definition"] = ros::message_traits::definition<Message>();
+  bag->write(topic, Stamp(i), message, header);
+}
+
 class BagRecording : public ::testing::Test {
  protected:
   template <typename MakeImage>
@@ -81,9 +96,15 @@ class BagRecording : public ::testing::Test {
     bag.setCompression(compression);
     bag.setChunkThreshold(chunk_size);
     bag.write("/other", Stamp(0), std_msgs::Bool());
+    WriteMessages(image_topic, make_image, &bag);
+  }
+
+  template <typename MakeImage>
+  void WriteMessages(const std::string& image_topic, const MakeImage& make_image,
+                     rosbag::Bag* bag) {
     for (int i = 0; i < kSamples; ++i) {
-      bag.write("/imu0", Stamp(i), Imu(i));
-      if (i % 5 == 0) bag.write(image_topic, Stamp(i), make_image(i));
+      bag->write("/imu0", Stamp(i), Imu(i));
+      if (i % 5 == 0) bag->write(image_topic, Stamp(i), make_image(i));
     }
   }
 
@@ -132,7 +153,10 @@ TEST_F(BagRecording, NamesTheKeysOfItsTopics) {
 
 TEST_F(BagRecording, ReadsCompressedImagesBesideTheTopic) {
   WriteBag("/cam0/image_raw/compressed", CompressedImage);
-  ExpectComplete(Read());
+  const auto recording = OpenBags({file_}, {"/cam0/image_raw"}, "/imu0");
+  ExpectComplete(ReadAll(recording.get()));
+  EXPECT_EQ(recording->Source(RecordingEvent::Kind::kImage),
+            "image_topic /cam0/image_raw/compressed");
 }
 
 TEST_F(BagRecording, ReadsCompressedImagesOnTheTopicItself) {
@@ -160,14 +184,6 @@ TEST_F(BagRecording, FindsATopicWithoutALeadingSlash) {
   WriteBag("cam0/image_raw", RawImage);
   ExpectComplete(Read());
   ExpectComplete(ReadAll(OpenBags({file_}, {"cam0/image_raw"}, "imu0").get()));
-}
-
-TEST_F(BagRecording, NamesTheTopicsOfImagesAndSamples) {
-  WriteBag("/cam0/image_raw/compressed", CompressedImage);
-  const auto recording = OpenBags({file_}, {"/cam0/image_raw"}, "/imu0");
-  EXPECT_EQ(recording->Source(RecordingEvent::Kind::kImage),
-            "image_topic /cam0/image_raw/compressed");
-  EXPECT_EQ(recording->Source(RecordingEvent::Kind::kImu), "imu_topic /imu0");
 }
 
 TEST_F(BagRecording, RejectsATopicOfAnotherType) {
@@ -238,6 +254,52 @@ TEST_F(BagRecording, CountsImagesOfUnknownEncodingAndContinues) {
   const RecordingContents contents = ReadAll(recording.get());
   EXPECT_EQ(contents.images.size(), static_cast<size_t>(kImages - 1));
   EXPECT_EQ(contents.problems.at("images_unreadable"), 1);
+}
+
+// The messages come before or after the images.
+TEST_F(BagRecording, MessagesOfAnotherTypeAreCountedAndSkipped) {
+  for (const int stray_at : {-1, kSamples}) {
+    {
+      rosbag::Bag bag(file_, rosbag::bagmode::Write);
+      WriteApart("/imu0", stray_at, std_msgs::Bool(), &bag);
+      WriteApart("/cam0/image_raw", stray_at, std_msgs::Bool(), &bag);
+      WriteApart("/cam0/image_raw", stray_at, sensor_msgs::CompressedImage(), &bag);
+      WriteMessages("/cam0/image_raw", RawImage, &bag);
+    }
+    const auto recording = OpenBags({file_}, {"/cam0/image_raw"}, "/imu0");
+    const RecordingContents contents = ReadAll(recording.get());
+    ExpectComplete(contents);
+    EXPECT_EQ(contents.problems.at("messages_malformed"), 0);
+    EXPECT_EQ(contents.problems.at("messages_of_another_type"), 3);
+    const DropCounts problems = recording->problems();
+    const auto others = std::find_if(problems.begin(), problems.end(), [](const DropCount& drop) {
+      return drop.cause == "messages_of_another_type";
+    });
+    EXPECT_THAT(others->detail, HasSubstr(" on /"));
+  }
+}
+
+TEST_F(BagRecording, ATopicMayHaveImagesAndSamples) {
+  {
+    rosbag::Bag bag(file_, rosbag::bagmode::Write);
+    for (int i = 0; i < kSamples; ++i) {
+      bag.write("/data", Stamp(i), Imu(i));
+      if (i % 5 == 0) WriteApart("/data", i, RawImage(i), &bag);
+    }
+  }
+  ExpectComplete(ReadAll(OpenBags({file_}, {"/data"}, "/data").get()));
+}
+
+TEST_F(BagRecording, NamesTheTopicOfAMessageThatIsMalformed) {
+  WriteBag("/cam0/image_raw", RawImage);
+  std::string bytes = folder_.Read("test.bag");
+  const std::string before_size = std::string("mono8") + '\0' + std::string("\x40\0\0\0", 4);
+  bytes.replace(bytes.find(before_size) + before_size.size(), 4, std::string("\0\x10\0\0", 4));
+  folder_.Write("test.bag", bytes);
+  const auto recording = OpenBags({file_}, {"/cam0/image_raw"}, "/imu0");
+  ReadAll(recording.get());
+  EXPECT_EQ(ToString(recording->problems().back()),
+            "messages_malformed: 1 (first: sensor_msgs/Image on /cam0/image_raw)");
 }
 
 }  // namespace

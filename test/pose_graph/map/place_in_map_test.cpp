@@ -85,17 +85,6 @@ TEST_F(PlaceInMapTest, LocatesANewWorldByItsLoop) {
   EXPECT_NEAR(VarianceInMap(0.04), 0.1 + 0.5 + 0.01 + 0.001, 1e-12);
 }
 
-TEST_F(PlaceInMapTest, LoadedMapIsExact) {
-  KeyframeMap loaded;
-  loaded.keyframes.emplace_back().covariance = Variance(7);
-  loaded.graph.AddNode({});
-  map_ = loaded;
-  place_.SetMap(map_);
-  Add(1, 0.01);
-  place_.AddLoop(map_, Loop(0, 1, 0.2));
-  EXPECT_NEAR(VarianceInMap(0.01), 0.2, 1e-12);
-}
-
 TEST_F(PlaceInMapTest, IgnoresDroppedLoops) {
   for (const double variance : {0.1, 0.2}) Add(0, variance);
   AddToGraph(Loop(0, 1, 0.02));

@@ -166,19 +166,5 @@ TEST(Renderer, PipesHaveTheirWidth) {
   EXPECT_NEAR(width, 2 * 0.1 / 2 * parameters.fx, 2.0);
 }
 
-TEST(Renderer, ResultDoesNotDependOnThreads) {
-  const SaddleScene world;
-  const CameraParameters parameters = DefaultSensors().cameras[0].parameters;
-  const Renderer renderer(world.scene, CameraModel::Create(parameters));
-  const Rigid3d T_W_C(SO3Exp({0.1, 0.2, 0.3}), Vector3d::Zero());
-  const int threads = cv::getNumThreads();
-  cv::setNumThreads(1);
-  const cv::Mat1f alone = Render(renderer, parameters, T_W_C);
-  cv::setNumThreads(4);
-  const cv::Mat1f together = Render(renderer, parameters, T_W_C);
-  cv::setNumThreads(threads);
-  EXPECT_EQ(cv::countNonZero(alone != together), 0);
-}
-
 }  // namespace
 }  // namespace plm_vins::simulator

@@ -77,14 +77,6 @@ ClosedForm ConstantRateAndForce(const Vector3d& w, const Vector3d& f, double T) 
   return {once * f, twice * f};
 }
 
-TEST(Preintegration, IsExactForConstantForceWithoutRotation) {
-  const Preintegration result = Integrate(ConstantMotion(Vector3d::Zero(), {1, -2, 3}, 1.0, 100));
-  EXPECT_NEAR(result.duration(), 1.0, 1e-12);
-  EXPECT_MATRIX_NEAR(result.delta_v(), Vector3d(1, -2, 3), 1e-12);
-  EXPECT_MATRIX_NEAR(result.delta_p(), Vector3d(0.5, -1, 1.5), 1e-12);
-  EXPECT_NEAR(result.delta_q().w(), 1.0, 1e-15);
-}
-
 TEST(Preintegration, ConvergesQuadraticallyToConstantRateAndForce) {
   const Vector3d w(0.6, -1.1, 0.8), f(1.0, 2.0, 9.0);
   const ClosedForm truth = ConstantRateAndForce(w, f, 1.5);

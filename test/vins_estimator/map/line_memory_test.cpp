@@ -48,13 +48,6 @@ class LineMemoryTest : public ::testing::Test {
   LineMemory memory_;
 };
 
-TEST_F(LineMemoryTest, HoldsOnlyAddedLines) {
-  memory_.Keep(3, LineAlongX(1, 2));
-  ExpectSeen(3, {1, 0, 0}, {2, 0, 0});
-  EXPECT_TRUE(memory_.Find(3)->anchor_observations.empty());
-  EXPECT_EQ(memory_.Find(4), nullptr);
-}
-
 TEST_F(LineMemoryTest, AllowsChangesOfAllAnchorObservations) {
   memory_.Keep(3, LineAlongX(1, 2));
   memory_.Keep(4, LineAlongX(1, 2));

@@ -43,14 +43,6 @@ SlidingWindow MakeWindow(int frames) {
   return window;
 }
 
-TEST(SlidingWindow, FindsFramesByTheirStamp) {
-  SlidingWindow window = MakeWindow(3);
-  EXPECT_EQ(&window.FrameAt(kInterval), &window.frames[1]);
-  EXPECT_EQ(&window.StateAt(kInterval), &window.frames[1].state);
-  EXPECT_EQ(&window.newest(), &window.frames[2]);
-  EXPECT_EQ(&window.second_newest(), &window.frames[1]);
-}
-
 TEST(SlidingWindow, ErrorNamesTheMissingFrame) {
   SlidingWindow window = MakeWindow(3);
   EXPECT_THROW(window.FrameAt(7), std::logic_error);
@@ -131,15 +123,6 @@ TEST(SlidingWindow, JoinedFramesMoveSinceTheFirstMoved) {
     window.RemoveSecondNewest();
     EXPECT_EQ(window.newest().moving_since_ns, second ? 8 : 7);
   }
-}
-
-TEST(SlidingWindow, FirstFrameHasNoMotionBeforeIt) {
-  SlidingWindow window = MakeWindow(3);
-  window.RemoveOldest();
-  EXPECT_EQ(window.frames.size(), 2u);
-  EXPECT_EQ(window.frames.front().state.t_ns, kInterval);
-  EXPECT_EQ(window.frames.front().motion_since_previous, nullptr);
-  EXPECT_NE(window.newest().motion_since_previous, nullptr);
 }
 
 TEST(SlidingWindow, OldestFrameMayBecomeAnAnchor) {

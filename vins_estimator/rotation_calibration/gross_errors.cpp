@@ -120,6 +120,11 @@ std::optional<MountingError> ExplainByMounting(const std::vector<RotationPair>& 
     const Eigen::Quaterniond about_axis(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
     consider(R_B_C * about_axis, {MountingError::Kind::kTurned, angle});
   }
+  // In a mirror, rotations appear as those of a camera that is turned about the axis across it.
+  for (const int axis : {0, 1}) {
+    consider(R_B_C * SO3Exp(M_PI * Eigen::Vector3d::Unit(axis)),
+             {MountingError::Kind::kMirrored, M_PI});
+  }
   return best;
 }
 

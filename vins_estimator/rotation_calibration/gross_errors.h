@@ -11,7 +11,11 @@ namespace plm_vins {
 
 // A gross error of the camera's rotation in the body, of the kinds that occur.
 struct MountingError {
-  enum class Kind { kInverse, kTurned };  // the inverse was given; the image is turned
+  enum class Kind {
+    kInverse,  // the inverse was given
+    kTurned,   // the image is turned
+    kMirrored  // the image is mirrored, or the camera's axes are not x right, y down, z forward
+  };
   Kind kind = Kind::kInverse;
   double angle = 0;  // of the error; of a turned image about the optical axis, signed [rad]
 };

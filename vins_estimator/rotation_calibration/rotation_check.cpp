@@ -57,6 +57,10 @@ std::string DescribeMounting(const std::optional<MountingError>& error) {
     return "its inverse fits; give the camera in the IMU frame (T_imu_cam), not the IMU in the "
            "camera frame (T_cam_imu)";
   }
+  if (error->kind == MountingError::Kind::kMirrored) {
+    return "the image is mirrored, so flip it in the driver; or the camera's axes are not x right, "
+           "y down and z forward";
+  }
   return Format(
       "the image is turned by %.0f deg about the optical axis%s; turn it in the driver, or "
       "find the right rotation with estimate_extrinsic: 2",

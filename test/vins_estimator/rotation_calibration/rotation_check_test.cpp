@@ -12,6 +12,7 @@
 namespace plm_vins {
 namespace {
 
+using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 using testing::SimulatedFlight;
@@ -97,6 +98,16 @@ TEST(RotationCheck, NamesACameraUpsideDown) {
   Eigen::Quaterniond& R_B_C = flight.sensor.cameras[0].T_B_C.rotation;
   R_B_C = R_B_C * SO3Exp(Eigen::Vector3d(0, 0, M_PI));
   EXPECT_NE(Check(flight).find("turned by 180 deg"), std::string::npos) << Check(flight);
+}
+
+TEST(RotationCheck, NamesAMirroredImage) {
+  for (const int axis : {0, 1}) {
+    SimulatedFlight flight = Fly(3);
+    for (FrameMeasurement& frame : flight.frames) {
+      for (PointObservation& point : frame.points.points) point.xy[axis] *= -1;
+    }
+    EXPECT_THAT(Check(flight), HasSubstr("the image is mirrored")) << axis;
+  }
 }
 
 SimulatedFlight FlyWithWrongGyro() {

@@ -6,12 +6,20 @@
 
 #include <set>
 
+#include "common/format.h"
+
 namespace plm_vins {
 namespace {
 
 constexpr double kMinSilence = 2, kLongSilence = 10;  // [s]
 constexpr char kRaw[] = "sensor_msgs/Image";
 constexpr char kCompressed[] = "sensor_msgs/CompressedImage";
+
+// Advice to the user about a topic without messages, from what the ROS master knows.
+struct TopicAdvice {
+  std::string text;         // other published topics and what to do; empty without a master
+  bool is_certain = false;  // the data are published in another form; waiting is useless
+};
 
 std::string Transport(const std::string& transport) {
   return "start with image_transport:=" + transport +
@@ -25,8 +33,6 @@ bool IsOfSuite(const std::string& topic) {
   }
   return false;
 }
-
-}  // namespace
 
 TopicAdvice AdviseOnSilence(const std::string& topic, const std::string& type) {
   ros::master::V_TopicInfo topics;
@@ -53,13 +59,17 @@ TopicAdvice AdviseOnSilence(const std::string& topic, const std::string& type) {
     }
   }
   if (others.empty()) return {"no topic of type " + type + " is published", false};
-  std::string text = "published topics of type " + type + ":";
-  for (const std::string& other : others) text += " " + other;
-  return {text, false};
+  return {
+      "published topics of type " + type + ": " + JoinTexts({others.begin(), others.end()}, " "),
+      false};
 }
 
-void SilenceWarner::Check(const std::string& topic, const std::string& type, double silence) {
-  if (silence < kMinSilence) return;
+}  // namespace
+
+void SilenceWarner::Check(const std::string& topic, const std::string& type,
+                          const StreamMonitor& stream) {
+  const double silence = stream.Silence();
+  if (stream.HasMessages() || silence < kMinSilence) return;
   const TopicAdvice advice = AdviseOnSilence(topic, type);
   if (advice.text == advice_ || (!advice.is_certain && silence < kLongSilence)) return;
   advice_ = advice.text;

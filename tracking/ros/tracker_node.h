@@ -78,9 +78,7 @@ class TrackerNode {
     diagnostics_.add(traits.status, this, &TrackerNode::ReportStatus);
     diagnostics_timer_ =
         node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
-          if (!images_.stream().HasMessages()) {
-            silence_.Check(images_.topic(), images_.type(), images_.stream().Silence());
-          }
+          silence_.Check(images_.topic(), images_.type(), images_.stream());
           diagnostics_.force_update();
         });
     SubscribeToOthers();

@@ -159,21 +159,18 @@ std::string StatedLengths::Describe(const LengthCheck& check) const {
 }
 
 std::string StatedLengths::Finding() const {
-  std::string text;
+  std::vector<std::string> findings;
   for (const LengthCheck& check : checks_) {
-    if (!check.is_wrong()) continue;
-    if (!text.empty()) text += "; ";
-    text += Describe(check);
+    if (check.is_wrong()) findings.push_back(Describe(check));
   }
   if (unaligned_) {
-    if (!text.empty()) text += "; ";
-    text += "depth_topic " + sensor_.depth->topic +
-            Format(
-                ": by motion, depth images are not aligned to camera 0, by at least %.0f px, or "
-                "much older than their timestamps; they are not used",
-                unaligned_->distance_px);
+    findings.push_back(
+        "depth_topic " + sensor_.depth->topic +
+        Format(": by motion, depth images are not aligned to camera 0, by at least %.0f px, or "
+               "much older than their timestamps; they are not used",
+               unaligned_->distance_px));
   }
-  return text;
+  return JoinTexts(findings, "; ");
 }
 
 double StatedLengths::Doubt() const {

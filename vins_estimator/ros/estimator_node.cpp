@@ -80,7 +80,8 @@ EstimatorNode::EstimatorNode(const Config& config, const ros::NodeHandle& node,
   });
   diagnostics_timer_ =
       node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
-        WarnWithoutImu();
+        silence_.Check(node_.resolveName(config_.sensor.imu_topic), "sensor_msgs/Imu",
+                       diagnostics_.imu());
         diagnostics_updater_.force_update();
       });
   worker_ = std::thread(&EstimatorNode::Work, this);
@@ -209,12 +210,6 @@ bool EstimatorNode::SaveTrajectory(std_srvs::Trigger::Request&,
 std::string EstimatorNode::TrajectoryFile(const std::string& otherwise) const {
   const auto file = FindParameter<std::string>(private_node_, "trajectory_file").value_or("");
   return FullPath(file.empty() ? otherwise : file);
-}
-
-void EstimatorNode::WarnWithoutImu() {
-  const StreamMonitor& imu = diagnostics_.imu();
-  if (imu.HasMessages()) return;
-  silence_.Check(node_.resolveName(config_.sensor.imu_topic), "sensor_msgs/Imu", imu.Silence());
 }
 
 // Warns at the start, while the user can still react: at the end the trajectory would be lost.

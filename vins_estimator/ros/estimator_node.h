@@ -81,7 +81,6 @@ class EstimatorNode {
   bool SaveTrajectory(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   // Returns the full path of ~trajectory_file; that of `otherwise` if it is empty or not set.
   std::string TrajectoryFile(const std::string& otherwise) const;
-  void WarnWithoutImu();  // until its first sample
   void WarnWithoutFileAtEnd() const;
   void WarnWithoutCalibrationAtEnd() const;
   // Saves all files and returns a description; throws std::runtime_error if a file cannot be

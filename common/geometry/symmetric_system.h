@@ -5,8 +5,8 @@
 
 namespace plm_vins {
 
-// Up to 6 rows and columns, without heap memory.
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+// Up to 7 rows and columns, without heap memory.
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 7, 7>;
 
 // Returns A^-1 B for a symmetric, positive or negative semidefinite A. Eigen's LDLT takes a
 // compiler seconds for each size in every source that uses it, so that of SmallMatrix solves all.
@@ -16,7 +16,7 @@ SmallMatrix SolveSmallSymmetric(const SmallMatrix& A, const SmallMatrix& B);
 template <int kSize, int kColumns>
 Eigen::Matrix<double, kSize, kColumns> SolveSymmetric(
     const Eigen::Matrix<double, kSize, kSize>& A, const Eigen::Matrix<double, kSize, kColumns>& B) {
-  static_assert(kSize <= 6 && kColumns <= 6);
+  static_assert(kSize <= 7 && kColumns <= 7);
   return SolveSmallSymmetric(A, B);
 }
 

@@ -139,7 +139,7 @@ bool StereoMatcher::IsLate() const { return std::abs(extrinsics_.delay()) > kMax
 // The first images may show less of a fault than there is: their matches are not used then.
 bool StereoMatcher::IsTrusted() const {
   if (searched_ < kSettlingImages && !Finding().empty()) return false;
-  return (!shares_ || shares_->found > kMinFoundShare) &&
+  return (!shares_ || shares_->found > kMinFoundShare) && extrinsics_.zoom() == 0 &&
          std::abs(extrinsics_.delay()) < kLargestDelay;
 }
 
@@ -161,6 +161,12 @@ std::string StereoMatcher::Finding() const {
         "swapped, %s, and that both cameras are triggered together",
         first, second, TopicKey(first).c_str(), TopicKey(second).c_str(),
         TransformKey(second).c_str());
+  }
+  if (extrinsics_.zoom() != 0) {
+    return Format(
+        "the focal length of camera %d is wrong by %+.1f %% against that of camera %d, so that its "
+        "points are not used; calibrate both cameras anew",
+        second, 100 * extrinsics_.zoom(), first);
   }
   if (std::abs(extrinsics_.delay()) > kReportedDelay) {
     return Format("camera %d is %.1f ms late against its timestamps; trigger all cameras together",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/stereo/extrinsics_estimate.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/geometry/epipolar_constraint.h"
@@ -17,6 +18,9 @@ constexpr double kDegree = M_PI / 180;
 constexpr double kRotationPrior = 0.4 * kDegree;  // [rad]
 constexpr double kBaselinePrior = 0.4 * kDegree;  // [rad]
 constexpr double kDelayPrior = 0.01;              // [s]
+constexpr double kZoomPrior = 0.01;               // relative
+constexpr double kLeastZoom = 0.01;               // that matters
+constexpr double kCertain = 5;                    // standard deviations
 constexpr double kMatchDeviation_px = 0.5;        // match, including errors of lens models
 constexpr double kGate = 3.0;                     // standard deviations
 constexpr double kMemory = 0.99;  // share of its weight that an image keeps with the next
@@ -31,7 +35,7 @@ ExtrinsicsEstimate::ExtrinsicsEstimate(const Rigid3d& stated_T_S_C, double focal
       baseline_tangent_(TangentBasis(baseline_direction_)) {
   Vector deviations;
   deviations << kRotationPrior, kRotationPrior, kRotationPrior, kBaselinePrior, kBaselinePrior,
-      kDelayPrior;
+      kDelayPrior, kZoomPrior;
   covariance_ = deviations.cwiseAbs2().asDiagonal();
   prior_ = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
 }
@@ -54,6 +58,7 @@ ExtrinsicsEstimate::Linear ExtrinsicsEstimate::Linearize(const StereoMatch& matc
       EpipolarGradient(weight, a, b, baseline_direction_, baseline_tangent_);
   // A match that is observed later lies further along its motion.
   linear.gradient[kDelay] = -weight * line.head<2>().dot(VelocityInSecond(match));
+  linear.gradient[kZoom] = weight * line.head<2>().dot(match.xy_S);
   return linear;
 }
 
@@ -98,6 +103,11 @@ double ExtrinsicsEstimate::Error(const StereoMatch& match) const {
 
 Eigen::Vector2d ExtrinsicsEstimate::WithoutDelay(const StereoMatch& match) const {
   return match.xy_S - delay() * VelocityInSecond(match);
+}
+
+double ExtrinsicsEstimate::zoom() const {
+  const double zoom = state_[kZoom], deviation = std::sqrt(covariance_(kZoom, kZoom));
+  return std::abs(zoom) > std::max(kLeastZoom, kCertain * deviation) ? zoom : 0;
 }
 
 Rigid3d ExtrinsicsEstimate::T_S_C() const {

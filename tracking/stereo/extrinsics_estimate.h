@@ -16,10 +16,11 @@ struct StereoMatch {
 };
 
 // Estimates the actual extrinsics and timing of the second camera from the epipolar constraint of
-// matched points: its rotation, the direction of the baseline, and the delay of its exposure after
-// that of the first camera. Linear least squares about the stated extrinsics with Gaussian priors,
-// robust against wrong matches; old images are forgotten gradually. A matcher searches along the
-// epipolar curves of this estimate and gates its matches by them.
+// matched points: its rotation, the direction of the baseline, the delay of its exposure after that
+// of the first camera, and the error of its focal length against that of the first. Linear least
+// squares about the stated extrinsics with Gaussian priors, robust against wrong matches; old
+// images are forgotten gradually. A matcher searches along the epipolar curves of this estimate and
+// gates its matches by them.
 class ExtrinsicsEstimate {
  public:
   // `focal_length` [px] converts normalized errors to pixels.
@@ -42,13 +43,15 @@ class ExtrinsicsEstimate {
   // Rotation relative to the stated extrinsics [rad], in S.
   Eigen::Vector3d rotation() const { return state_.head<3>(); }
   double delay() const { return state_[kDelay]; }  // positive: exposes later than the first [s]
+  // By how much its focal length is configured too long, relative to that of the first camera, if
+  // the error is certain and matters; otherwise 0.
+  double zoom() const;
   // Standard deviation of Error() due to the uncertain extrinsics and delay [px].
   double Deviation(const StereoMatch& match) const;
 
  private:
-  static constexpr int kDelay = 5;
-  static constexpr int kSize =
-      6;  // rotation, direction of the baseline in its tangent basis, delay
+  // Rotation, direction of the baseline in its tangent basis, delay, focal length.
+  static constexpr int kDelay = 5, kZoom = 6, kSize = 7;
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
 

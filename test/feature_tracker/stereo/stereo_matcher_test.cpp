@@ -93,6 +93,19 @@ TEST_F(StereoMatcherTest, LearnsTheActualExtrinsics) {
   EXPECT_NE(matcher.Finding().find("turned by"), std::string::npos) << matcher.Finding();
 }
 
+TEST_F(StereoMatcherTest, DoesNotUsePointsOfAWrongFocalLength) {
+  CameraParameters wrong = pair_.second().parameters();
+  wrong.fx *= 1.03;
+  wrong.fy *= 1.03;
+  StereoMatcher matcher(CameraPair(CameraModel::Create(pair_.first().parameters()),
+                                   CameraModel::Create(wrong), StereoExtrinsics(), {0, 1}));
+  std::vector<PointTrack> tracks = Match(right_, &matcher);
+  for (int i = 0; i < 9; ++i) matcher.Match(left_, right_, &tracks);
+  EXPECT_EQ(ShareOfFound(tracks), 0);
+  EXPECT_EQ(matcher.Finding().rfind("the focal length of camera 1 is wrong by +3.", 0), 0u)
+      << matcher.Finding();
+}
+
 TEST_F(StereoMatcherTest, DoesNotMatchAnotherScene) {
   StereoMatcher matcher(pair_);
   const cv::Mat other = StereoScene({0, 0, 0.5}, 9).View(pair_.second(), StereoExtrinsics());

@@ -70,6 +70,17 @@ TEST(ExtrinsicsEstimateTest, LearnsTheDelayOfTheSecondCamera) {
   }
 }
 
+TEST(ExtrinsicsEstimateTest, LearnsTheErrorOfTheFocalLength) {
+  for (const double zoom : {0.05, -0.02, 0.005}) {
+    ExtrinsicsEstimate estimate(StereoExtrinsics(), kFocal);
+    std::vector<StereoMatch> matches = Matches(StereoExtrinsics(), 0);
+    for (StereoMatch& match : matches) match.xy_S /= 1 + zoom;
+    Feed(matches, &estimate);
+    EXPECT_NEAR(estimate.zoom(), zoom == 0.005 ? 0 : zoom, 0.003) << zoom;
+    EXPECT_NEAR(estimate.delay(), 0, 5e-4) << zoom;
+  }
+}
+
 TEST(ExtrinsicsEstimateTest, IsRobustAgainstWrongMatches) {
   std::vector<StereoMatch> matches = Matches(StereoExtrinsics(), 0);
   for (size_t i = 0; i < matches.size(); i += 3) matches[i].xy_S.y() += 0.004 * (1.0 + i % 7);

@@ -66,9 +66,17 @@ MISTAKES = [
     ("focal length 190 for 240", MONO, {"lens0": {"fx": 190.0, "fy": 190.0}}, FOCAL),
     ("both focal lengths 300", STEREO, {"lens0": {"fx": 300.0, "fy": 300.0},
                                         "lens1": {"fx": 300.0, "fy": 300.0}}, FOCAL),
+    *((f"focal length x {factor}", MONO, {"lens0": {"fx": 240 * factor, "fy": 240 * factor}}, FOCAL)
+      for factor in (1.05, 0.95)),
+    *((f"second focal length x {factor}", STEREO,
+       {"lens1": {"fx": 240 * factor, "fy": 240 * factor}}, FOCAL) for factor in (1.05, 0.98)),
     ("td 50 ms off", MONO, {"td": 0.05}, r"\btd\b"),
     ("td 30 ms off", MONO, {"td": -0.03}, r"\btd\b"),
+    ("td 20 ms off", MONO, {"td": 0.02}, r"\btd\b"),
+    ("distortion of the first lens", STEREO, {"lens0": {"k1": -0.28, "k2": 0.07}}, "distortion"),
     ("distortion of another lens", MONO, {"lens0": {"k1": -0.28, "k2": 0.07}}, "distortion"),
+    ("scale of the gyro 5 % off", MONO, {"gyr_correction": 0.95 * np.eye(3)}, "gyro"),
+    ("one axis of the gyro 5 % off", MONO, {"gyr_correction": np.diag([1.05, 1, 1])}, "gyro"),
     ("gyro 5 % off", MONO, {"gyr_correction": np.diag([1.06, 0.95, 1.03])}, "gyro"),
 ]
 RIGHT = [(sensors, sensors, {}, "^nothing$") for sensors in (MONO, STEREO, DEPTH)]

@@ -25,12 +25,4 @@ struct MountingError {
 std::optional<MountingError> ExplainByMounting(const std::vector<RotationPair>& pairs,
                                                const Eigen::Quaterniond& R_B_C);
 
-// Returns by how much the configured focal length is too long, relative, if another one makes the
-// points of all pairs satisfy the epipolar constraint with the rotation of the gyro, and the
-// configured one does not. Unlike a comparison of rotations, this holds in translation as well,
-// which a relative pose would trade for the error. `noise` is the standard deviation of a
-// normalized coordinate. Returns nullopt otherwise, or if there are too few rotations.
-std::optional<double> ErrorOfFocalLength(const std::vector<RotationPair>& pairs,
-                                         const Eigen::Quaterniond& R_B_C, double noise);
-
 }  // namespace plm_vins

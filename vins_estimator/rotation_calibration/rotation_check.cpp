@@ -35,6 +35,11 @@ std::string Describe(const RotationFit& fit) {
           "the focal length is wrong by about %+.0f %%%s: calibrate the camera at this resolution, "
           "or estimate_intrinsics: 1 with a focal_length_deviation as large",
           100 * fit.amount, kBy);
+    case Cause::kDistortion:
+      return Format(
+          "the distortion parameters are wrong by about %+.0f %% at the edge of the image%s: "
+          "calibrate the camera",
+          100 * fit.amount, kBy);
     case Cause::kExtrinsics:
       return Format("extrinsicRotation is wrong by %.1f deg%s: estimate_extrinsic: 1 refines it",
                     ToDegrees(fit.amount), kBy);
@@ -137,18 +142,16 @@ bool RotationCheck::FindGrossError(const Eigen::Quaterniond& R_B_C) {
 }
 
 RotationFit RotationCheck::Explain(const Eigen::Quaterniond& R_B_C) const {
-  const RotationFit fit = ExplainRotations(pairs_, R_B_C);
-  if (fit.cause == Cause::kNone) return fit;
-  const auto focal_error = ErrorOfFocalLength(pairs_, R_B_C, noise_);
-  if (focal_error) return {Cause::kFocalLength, *focal_error};
+  const RotationFit fit = ExplainRotations(pairs_, R_B_C, noise_);
   // An error of the gyro shows in the first camera, too, whose check names it.
   return camera_ > 0 && fit.cause == Cause::kGyro ? RotationFit{} : fit;
 }
 
 void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
   agrees_ = false;
-  if (FindLag() || FindGrossError(R_B_C)) return;
+  if (FindLag()) return;
   const RotationFit fit = Explain(R_B_C);
+  if (fit.cause == Cause::kUnknown && FindGrossError(R_B_C)) return;
   agrees_ = fit.cause == Cause::kNone;
   // A gross error lasts while the rotations tell too little.
   if (fit.cause == Cause::kUnknown && mounting_was_wrong_) return;
@@ -171,6 +174,9 @@ bool RotationCheck::IsRefined(const RotationFit& fit) const {
     case Cause::kFocalLength:
       return sensor_.estimate_intrinsics &&
              std::abs(fit.amount) < kSigmas * sensor_.intrinsics_deviation.focal_length;
+    case Cause::kDistortion:
+      return sensor_.estimate_intrinsics &&
+             std::abs(fit.amount) < kSigmas * sensor_.intrinsics_deviation.distortion;
     case Cause::kExtrinsics:
       return sensor_.estimate_extrinsic == SensorConfig::ExtrinsicMode::kRefine;
     default:

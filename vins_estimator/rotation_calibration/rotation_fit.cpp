@@ -5,39 +5,41 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "common/geometry/robust_weight.h"
 #include "common/geometry/so3.h"
-#include "common/statistics.h"
+#include "vins_estimator/rotation_calibration/epipolar_equations.h"
 
 namespace plm_vins {
 namespace {
 
 using Cause = RotationFit::Cause;
+using Error = CalibrationError;
 
-constexpr size_t kMinPairs = 40;           // in doubt, ten per second
-constexpr double kMinMeanTurn = 0.03;      // root mean square of the rotations [rad]
-constexpr double kMinExplained = 0.2;      // share of the squared differences
-constexpr double kAgreement = 0.005;       // root mean square of the differences [rad]
-constexpr double kAgreementByTurn = 0.03;  // relative to that of the rotations
-constexpr double kOverlap = 3;             // pairs of 0.3 s may begin every 0.1 s: a third is new
-constexpr int kReweighings = 5;
-constexpr double kRobustSigmas = 3;
-
-// Columns of the Jacobian with respect to all parameters.
-constexpr int kBias = 0, kDelay = 3, kFocal = 4, kExtrinsics = 5, kGyro = 8, kScales = 17,
-              kScale = 20, kColumns = 21;
+constexpr size_t kMinPairs = 20, kMostPairs = 60;
+constexpr double kLeastTurn = 0.03;     // of a pair [rad]
+constexpr double kAgreement = 1.4;      // largest mean cost of a point that fits
+constexpr double kMinExplained = 0.04;  // share of the cost
+constexpr double kOverlap = 3;          // pairs of 0.3 s may begin every 0.1 s: a third is new
+constexpr int kIterations = 6;
+constexpr double kLeastDecrease = 0.002;  // share of the cost by which a step is worth its time
+constexpr double kPromising = 0.02;       // likewise, the first step of a cause
+constexpr double kFocalStarts[] = {-0.5, -0.3, -0.15, 0.2, 0.5, 1};
+constexpr double kDeviation = 0.3;          // of all relative errors and angles, before
+constexpr double kGyroBiasDeviation = 0.1;  // [rad/s]
 
 struct Bounds {
   double min, max;
 };
 
-// Returns the smallest amount that matters, and the largest that linear equations cover.
+// Returns the smallest amount that matters, and the largest that a fit is trusted with.
 Bounds Limits(Cause cause) {
   switch (cause) {
     case Cause::kTimeOffset:
       return {0.005, 0.1};
     case Cause::kFocalLength:
+    case Cause::kDistortion:
+      return {0.02, 1.5};
     case Cause::kExtrinsics:
       return {0.02, 0.3};
     default:
@@ -45,118 +47,167 @@ Bounds Limits(Cause cause) {
   }
 }
 
-// A cause with the columns of its parameters. Those of a gyroscope are all of its scales and axes,
-// the scales alone, or one scale, of which the fewest that suffice are the most likely.
+// A cause with its errors, as columns.
 struct Model {
   Cause cause;
-  int first, count;
+  Eigen::MatrixXd errors;
 };
 
-constexpr Model kNoError{Cause::kNone, kBias, 0}, kWholeGyro{Cause::kGyro, kGyro, 9};
-constexpr Model kModels[] = {{Cause::kTimeOffset, kDelay, 1},      {Cause::kFocalLength, kFocal, 1},
-                             {Cause::kExtrinsics, kExtrinsics, 3}, kWholeGyro,
-                             {Cause::kGyro, kScales, 3},           {Cause::kGyro, kScale, 1}};
+Eigen::MatrixXd Columns(int first, int count) {
+  return Eigen::MatrixXd::Identity(Error::kSize, Error::kSize).middleCols(first, count);
+}
 
-// Differences phi_C - phi_G of the rotations in B, three rows per pair, and their Jacobian.
-struct Equations {
-  Eigen::VectorXd differences;
-  Eigen::MatrixXd J;
-  double mean_squared_turn = 0;
-};
+// A gyroscope has errors of all scales and axes, of the scales alone, or of one scale: the fewest
+// that suffice are the most likely.
+std::vector<Model> Models() {
+  const Eigen::MatrixXd gyro = Columns(Error::kGyro, 9);
+  Eigen::MatrixXd scales(Error::kSize, 3);
+  scales << gyro.col(0), gyro.col(4), gyro.col(8);
+  return {{Cause::kTimeOffset, Columns(Error::kDelay, 1)},
+          {Cause::kFocalLength, Columns(Error::kFocal, 1)},
+          {Cause::kDistortion, Columns(Error::kDistortion, 1)},
+          {Cause::kExtrinsics, Columns(Error::kExtrinsics, 3)},
+          {Cause::kGyro, gyro},
+          {Cause::kGyro, scales},
+          {Cause::kGyro, scales.rowwise().sum()}};
+}
 
-// With phi the true rotation: phi_G = (I + E) phi + bias T, with the interval `delay` too early;
-// phi_C = (I + [theta]x) phi without the share `focal` of what lies across the optical axis.
-Equations Linearize(const std::vector<RotationPair>& pairs, const Eigen::Quaterniond& R_B_C) {
-  const auto count = static_cast<Eigen::Index>(pairs.size());
-  const Eigen::Vector3d axis_B = R_B_C * Eigen::Vector3d::UnitZ();
-  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis_B * axis_B.transpose();
-  Equations equations{Eigen::VectorXd(3 * count), Eigen::MatrixXd::Zero(3 * count, kColumns)};
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Vector3d turn = SO3Log(pairs[i].R_B0_B1);
-    equations.differences.segment<3>(3 * i) = R_B_C * SO3Log(pairs[i].R_then_now) - turn;
-    auto rows = equations.J.middleRows<3>(3 * i);
-    rows.middleCols<3>(kBias).diagonal().setConstant(-pairs[i].duration);
-    rows.col(kDelay) = pairs[i].rate_change;
-    rows.col(kFocal) = -across * turn;
-    rows.middleCols<3>(kExtrinsics) = -Skew(turn);
-    for (int k = 0; k < 3; ++k) rows.middleCols<3>(kGyro + 3 * k).diagonal().setConstant(-turn[k]);
-    rows.middleCols<3>(kScales).diagonal() = -turn;
-    rows.col(kScale) = -turn;
-    equations.mean_squared_turn += turn.squaredNorm() / static_cast<double>(count);
+// The newest pairs that turn enough, with the configuration that is tested.
+class Fitter {
+ public:
+  Fitter(const std::vector<RotationPair>& pairs, const Eigen::Quaterniond& R_B_C, double noise)
+      : R_B_C_(R_B_C), noise_(noise) {
+    for (size_t i = pairs.size(); i-- > 0 && pairs_.size() < kMostPairs;) {
+      const bool turns = SO3Log(pairs[i].R_B0_B1).norm() > kLeastTurn;
+      if (turns && !pairs[i].points.empty()) pairs_.push_back(pairs[i]);
+    }
+    information_.setConstant(1 / (kDeviation * kDeviation));
+    information_.segment<3>(Error::kBias)
+        .setConstant(1 / (kGyroBiasDeviation * kGyroBiasDeviation));
   }
-  return equations;
-}
 
-// Least squares for a bias and the parameters of one cause.
-struct Fit {
-  Eigen::VectorXd parameters;  // of the cause
-  Eigen::VectorXd residuals;
-  double squares = 0;  // weighted sum
-};
+  size_t pairs() const { return pairs_.size(); }
 
-Fit Solve(const Equations& equations, const Eigen::VectorXd& weights, const Model& model) {
-  Eigen::MatrixXd J(equations.J.rows(), 3 + model.count);
-  J << equations.J.middleCols(kBias, 3), equations.J.middleCols(model.first, model.count);
-  Eigen::MatrixXd H = J.transpose() * weights.asDiagonal() * J;
-  H.diagonal().array() += 1e-9 * H.diagonal().maxCoeff();  // turns may be about one axis
-  const Eigen::VectorXd x =
-      H.ldlt().solve(J.transpose() * weights.cwiseProduct(equations.differences));
-  Fit fit{x.tail(model.count), equations.differences - J * x};
-  fit.squares = weights.dot(fit.residuals.cwiseAbs2());
-  return fit;
-}
+  // The cost, with that of the errors themselves, and its derivatives.
+  EpipolarEquations Linearize(const Error::Vector& x) const {
+    EpipolarEquations equations = LinearizeEpipolar(pairs_, R_B_C_, noise_, x);
+    equations.cost += 0.5 * x.dot(information_.cwiseProduct(x));
+    equations.g += information_.cwiseProduct(x);
+    equations.H.diagonal() += information_;
+    return equations;
+  }
 
-// Lowers the weights of pairs with wrong tracks, which no error of the gyroscope explains.
-Eigen::VectorXd Weights(const Equations& equations) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(equations.differences.size());
-  for (int k = 0; k < kReweighings; ++k) {
-    const Eigen::VectorXd residuals = Solve(equations, weights, kWholeGyro).residuals;
-    std::vector<double> sizes(residuals.data(), residuals.data() + residuals.size());
-    for (double& size : sizes) size = std::abs(size);
-    const double scale = kRobustSigmas * std::max(1e-6, 1.48 * Median(sizes));
-    for (Eigen::Index i = 0; i < weights.size(); ++i) {
-      weights[i] = GemanMcClureWeight(residuals[i], scale);
+  struct Fit {
+    Error::Vector x;
+    EpipolarEquations equations;
+  };
+
+  struct Step {
+    Error::Vector x;
+    double decrease = 0;  // expected, of the cost
+  };
+
+  // A step of Gauss-Newton over the columns of `errors` and the bias.
+  static Step StepFrom(const EpipolarEquations& equations, const Eigen::MatrixXd& errors) {
+    Eigen::MatrixXd basis(static_cast<int>(Error::kSize), 3 + errors.cols());
+    basis << Columns(Error::kBias, 3), errors;
+    const Eigen::MatrixXd H = basis.transpose() * equations.H * basis;
+    const Eigen::VectorXd g = basis.transpose() * equations.g;
+    const Eigen::VectorXd step = H.ldlt().solve(g);
+    return {-basis * step, 0.5 * g.dot(step)};
+  }
+
+  // Takes steps until they gain nothing, shorter ones where the cost would not decrease.
+  Fit Minimize(const Eigen::MatrixXd& errors, Fit fit) const {
+    double length = 1;
+    for (int k = 0; k < kIterations; ++k) {
+      const Step step = StepFrom(fit.equations, errors);
+      if (step.decrease < kLeastDecrease * fit.equations.cost) break;
+      const Error::Vector x = fit.x + length * step.x;
+      const EpipolarEquations equations = Linearize(x);
+      const bool decreases = equations.cost < fit.equations.cost;
+      if (decreases) fit = {x, equations};
+      length = decreases ? 1 : 0.3 * length;
+    }
+    return fit;
+  }
+
+  // Steps from the right focal length to a grossly wrong one would get stuck.
+  Fit StartOf(Cause cause, const Fit& without) const {
+    Fit best = without;
+    if (cause != Cause::kFocalLength) return best;
+    for (const double focal : kFocalStarts) {
+      Error::Vector x = without.x;
+      x[Error::kFocal] = focal;
+      const EpipolarEquations equations = Linearize(x);
+      if (equations.cost < best.equations.cost) best = {x, equations};
+    }
+    return best;
+  }
+
+  double Amount(Cause cause, const Error::Vector& x) const {
+    switch (cause) {
+      case Cause::kTimeOffset:
+        return x[Error::kDelay];
+      case Cause::kFocalLength:
+        return x[Error::kFocal];
+      case Cause::kDistortion:
+        return x[Error::kDistortion] * LargestSquaredRadius();
+      case Cause::kExtrinsics:
+        return x.segment<3>(Error::kExtrinsics).norm();
+      default:
+        return Eigen::Map<const Eigen::Matrix3d>(x.data() + Error::kGyro)
+            .jacobiSvd()
+            .singularValues()[0];
     }
   }
-  return weights;
-}
 
-double Amount(Cause cause, const Eigen::VectorXd& parameters) {
-  if (cause == Cause::kTimeOffset || cause == Cause::kFocalLength) return parameters[0];
-  if (cause == Cause::kExtrinsics) return parameters.norm();
-  if (parameters.size() < 9) return parameters.cwiseAbs().maxCoeff();
-  return Eigen::Map<const Eigen::Matrix3d>(parameters.data()).jacobiSvd().singularValues()[0];
-}
+ private:
+  double LargestSquaredRadius() const {
+    double largest = 0;
+    for (const RotationPair& pair : pairs_) {
+      for (const Correspondence& c : pair.points) largest = std::max(largest, c.xy1.squaredNorm());
+    }
+    return largest;
+  }
+
+  std::vector<RotationPair> pairs_;
+  Eigen::Quaterniond R_B_C_;
+  double noise_;
+  Error::Vector information_;  // of the errors, before
+};
 
 }  // namespace
 
 double LeastAmount(Cause cause) { return Limits(cause).min; }
 
 RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
-                             const Eigen::Quaterniond& R_B_C) {
-  if (pairs.size() < kMinPairs) return {};
-  const Equations equations = Linearize(pairs, R_B_C);
-  if (equations.mean_squared_turn < kMinMeanTurn * kMinMeanTurn) return {};
-  const Eigen::VectorXd weights = Weights(equations);
-  const double squares = Solve(equations, weights, kNoError).squares;
-  const double count = weights.sum() / kOverlap;
-  const double most =
-      std::min(kAgreement, kAgreementByTurn * std::sqrt(equations.mean_squared_turn));
-  const bool agree = squares < most * most * weights.sum();
-  const RotationFit without{agree ? Cause::kNone : Cause::kUnknown};
-  RotationFit best = without;
-  double best_criterion = count * std::log(squares);
-  for (const Model& model : kModels) {
-    const Cause cause = model.cause;
-    const Fit fit = Solve(equations, weights, model);
-    const double criterion = count * std::log(fit.squares) + std::log(count) * model.count;
+                             const Eigen::Quaterniond& R_B_C, double noise) {
+  const Fitter fitter(pairs, R_B_C, noise);
+  if (fitter.pairs() < kMinPairs) return {};
+  const Error::Vector zero = Error::Vector::Zero();
+  const Fitter::Fit without = fitter.Minimize(Columns(0, 0), {zero, fitter.Linearize(zero)});
+  const double points = without.equations.points, count = points / kOverlap;
+  const double most = kAgreement * points;
+  const RotationFit none{without.equations.cost < most ? Cause::kNone : Cause::kUnknown};
+  RotationFit best = none;
+  double best_criterion = count * std::log(without.equations.cost);
+  for (const Model& model : Models()) {
+    const double decrease = Fitter::StepFrom(without.equations, model.errors).decrease;
+    // A step promises little where errors are so large that they count as outliers.
+    const bool is_linear = none.cause == Cause::kNone;
+    if (is_linear && decrease < kPromising * without.equations.cost) continue;
+    const Fitter::Fit fit = fitter.Minimize(model.errors, fitter.StartOf(model.cause, without));
+    const double cost = fit.equations.cost;
+    const double criterion =
+        count * std::log(cost) + std::log(count) * static_cast<double>(model.errors.cols());
     if (criterion >= best_criterion) continue;
     best_criterion = criterion;
-    const double amount = Amount(cause, fit.parameters);
-    const Bounds limits = Limits(cause);
+    const double amount = fitter.Amount(model.cause, fit.x);
+    const Bounds limits = Limits(model.cause);
     const bool matters = std::abs(amount) >= limits.min && std::abs(amount) <= limits.max;
-    const bool explains = fit.squares < (1 - kMinExplained) * squares;
-    best = matters && explains ? RotationFit{cause, amount} : without;
+    const bool explains = cost < most && cost < (1 - kMinExplained) * without.equations.cost;
+    best = matters && explains ? RotationFit{model.cause, amount} : none;
   }
   return best;
 }

@@ -8,23 +8,25 @@
 
 namespace plm_vins {
 
-// The error of the calibration that explains best why the rotations of the camera differ from those
-// of the gyroscope.
+// The error of the calibration that explains best why the motion of points in the image does not
+// agree with the rotation of the gyroscope.
 struct RotationFit {
-  enum class Cause { kUnknown, kNone, kTimeOffset, kFocalLength, kExtrinsics, kGyro };
+  enum class Cause { kUnknown, kNone, kTimeOffset, kFocalLength, kDistortion, kExtrinsics, kGyro };
   Cause cause = Cause::kUnknown;
-  // Correction of td [s], relative error of the configured focal length, error of the extrinsics
-  // [rad], or largest relative error of the gyroscope's scale and axes.
+  // Correction of td [s], relative error of the configured focal length, relative error of the rays
+  // at the edge of the image, error of the extrinsics [rad], or largest relative error of the
+  // gyroscope's scale and axes.
   double amount = 0;
 };
 
-// Fits the differences of many pairs by linear least squares, robustly, once for each cause, each
-// with a bias of the gyroscope. The best fit by the Bayesian information criterion is the cause if
-// it explains a good part of the differences and its amount matters. There is none if the rotations
-// agree; it is unknown if they do not, or if there are too few. A wrong focal length is visible in
-// rotation without much translation only. `R_B_C` is as configured and right within some degrees.
+// Fits the errors of each cause to the epipolar constraint of the pairs' points
+// (epipolar_equations.h), each with a bias of the gyroscope. The best fit by the Bayesian
+// information criterion is the cause if it explains a good part of the cost and its amount matters.
+// There is none if the points agree with the gyroscope; it is unknown if they do not, or if there
+// are too few rotations. `R_B_C` is as configured and right within some degrees; `noise` is the
+// standard deviation of a normalized coordinate.
 RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
-                             const Eigen::Quaterniond& R_B_C);
+                             const Eigen::Quaterniond& R_B_C, double noise);
 
 // Returns the smallest amount of an error that matters.
 double LeastAmount(RotationFit::Cause cause);

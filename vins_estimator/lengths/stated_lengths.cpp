@@ -11,7 +11,9 @@ namespace plm_vins {
 namespace {
 
 constexpr double kMemory = 10;                  // longest time from the start to repeat [s]
+constexpr double kPatience = 3;                 // for the unit of depths to be known [s]
 constexpr double kLargestByCalibration = 0.25;  // error of the logarithm of a length
+constexpr double kSuspicious = 2;               // standard deviations
 
 // Units of depth images other than mm in 16UC1 and m in 32FC1.
 struct DepthUnit {
@@ -42,6 +44,11 @@ std::optional<LengthEvidence> EvidenceFor(const std::optional<StereoPair>& pair,
     return LengthEvidence{-faults.baseline->error, faults.baseline->deviation};
   }
   return std::nullopt;
+}
+
+// Depths of another unit contradict the motion like those of another view.
+bool HasRightUnit(const RatioEstimate& ratio) {
+  return std::hypot(ratio.log_ratio, ratio.deviation) < kLargestByCalibration;
 }
 
 }  // namespace
@@ -83,7 +90,7 @@ bool StatedLengths::Add(const FrameMeasurement& measurement, const EstimatorRepo
     is_open |= check.is_open();
   }
   if (sensor_.depth && !DropsDepth()) {
-    unaligned_ = previous.depth.misalignment;
+    unaligned_ = Confirmed(previous.depth.misalignment, measurement.t_ns);
     if (unaligned_) checks_.pop_back();
     is_news |= unaligned_.has_value();
     is_open = true;
@@ -95,6 +102,14 @@ bool StatedLengths::Add(const FrameMeasurement& measurement, const EstimatorRepo
     images_.pop_front();
   }
   return false;
+}
+
+std::optional<Misalignment> StatedLengths::Confirmed(const std::optional<Misalignment>& found,
+                                                     int64_t t_ns) {
+  if (!found) return std::nullopt;
+  if (!misaligned_ns_) misaligned_ns_ = t_ns;
+  const bool has_waited = ToSeconds(t_ns - *misaligned_ns_) > kPatience;
+  return has_waited || HasRightUnit(checks_.back().ratio()) ? found : std::nullopt;
 }
 
 bool StatedLengths::IsDropped(int camera) const {

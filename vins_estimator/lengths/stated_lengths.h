@@ -50,8 +50,13 @@ class StatedLengths {
   bool DropsDepth() const;
   std::string Describe(const LengthCheck& check) const;
 
+  // Returns the misalignment of depths that was found once their unit is known, or has stayed
+  // unknown for long: depths of another unit seem unaligned as well.
+  std::optional<Misalignment> Confirmed(const std::optional<Misalignment>& found, int64_t t_ns);
+
   const SensorConfig sensor_;
   std::vector<LengthCheck> checks_;        // of pairs, then of depths, unless these are unaligned
+  std::optional<int64_t> misaligned_ns_;   // when depths first seemed unaligned
   std::optional<Misalignment> unaligned_;  // of depths; final
   std::deque<FrameMeasurement> images_;
 };

@@ -11,13 +11,23 @@ endfunction()
 
 # plm_add_ros_library(NAME SOURCES...): a library of a ros/ folder; only these may use ROS.
 function(plm_add_ros_library name)
+  plm_add_library(${name} ${ARGN})
+  plm_use_ros(${name})
+endfunction()
+
+# plm_add_node_library(NAME SOURCES...): a library of a ros/ folder for nodes.
+function(plm_add_node_library name)
   plm_add_static_library(${name} ${ARGN})
-  target_include_directories(${name} SYSTEM PUBLIC ${ROS_INCLUDE_DIRS})
-  target_link_libraries(${name} PUBLIC ${ROS_LIBRARIES})
+  plm_use_ros(${name})
   plm_use_header_set(ros ${name})
 endfunction()
 
-# plm_add_static_library(NAME SOURCES...): the common part of both.
+function(plm_use_ros target)
+  target_include_directories(${target} SYSTEM PUBLIC ${ROS_INCLUDE_DIRS})
+  target_link_libraries(${target} PUBLIC ${ROS_LIBRARIES})
+endfunction()
+
+# plm_add_static_library(NAME SOURCES...): the common part of all libraries.
 function(plm_add_static_library name)
   add_library(${name} STATIC ${ARGN})
   plm_group_by_folder(${name})
@@ -101,6 +111,7 @@ endfunction()
 # The common part of plm_add_executable and plm_add_node.
 function(plm_add_program header_set name)
   add_executable(${name} ${ARGN})
+  plm_group_by_folder(${name})
   plm_use_header_set(${header_set} ${name})
   install(TARGETS ${name} RUNTIME DESTINATION lib/${PROJECT_NAME})
   if(BUILD_TESTING)

@@ -25,8 +25,8 @@ std::string Describe(const DropCount& drop, const Source& source) {
   return origin.empty() ? ToString(drop) : ToString(drop) + " from " + origin;
 }
 
-void Warn(const DropCount& drop, const Source& source) {
-  if (drop.count > 0) plm_vins::Warn(Describe(drop, source));
+void WarnOfDrop(const DropCount& drop, const Source& source) {
+  if (drop.count > 0) Warn(Describe(drop, source));
 }
 
 double Weight(const DropCount& drop) {
@@ -118,8 +118,8 @@ int Report(const RunSummary::Run& run, const Source& source, const OdometryPipel
            const RunReport& report, const ResultFiles& results) {
   const RunSummary& summary = results.summary();
   for (const std::string& finding : run.findings) Warn(finding);
-  for (const DropCount& drop : run.drops) Warn(drop, source);
-  Warn(results.unwritten_pictures(), source);
+  for (const DropCount& drop : run.drops) WarnOfDrop(drop, source);
+  WarnOfDrop(results.unwritten_pictures(), source);
   Warn(UncoveredWarning(run, pipeline));
   Warn(UnusedWarning(pipeline.unused_images(), run.images));
   Warn(PoselessWarning(summary.poses(), run.images));

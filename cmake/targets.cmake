@@ -30,18 +30,26 @@ endfunction()
 # plm_add_static_library(NAME SOURCES...): the common part of all libraries.
 function(plm_add_static_library name)
   add_library(${name} STATIC ${ARGN})
-  plm_group_by_folder(${name})
+  plm_group_sources(${name})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                              $<INSTALL_INTERFACE:include/${PROJECT_NAME}>)
   target_include_directories(${name} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
 endfunction()
 
-# plm_group_by_folder(TARGET): compiles the sources of one folder together, which instantiates the
-# templates of Eigen once for all of them. So names in unnamed namespaces are unique in a folder.
-# CMake before 3.18 cannot group sources and compiles each on its own.
-option(PLM_GROUP_SOURCES "Compile the sources of a folder together" ON)
+# plm_group_sources(TARGET): compiles the sources of a target together, which parses headers and
+# instantiates the templates of Eigen once for all of them. So names in unnamed namespaces are unique
+# in a target.
+option(PLM_GROUP_SOURCES "Compile the sources of a target together" ON)
+function(plm_group_sources target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PLM_GROUP_SOURCES}
+                        UNITY_BUILD_BATCH_SIZE 0)
+endfunction()
+
+# plm_group_by_folder(TARGET): compiles the sources of each folder of a large target together. CMake
+# before 3.18 cannot, and compiles each source on its own.
 function(plm_group_by_folder target)
-  if(NOT PLM_GROUP_SOURCES OR CMAKE_VERSION VERSION_LESS 3.18)
+  if(CMAKE_VERSION VERSION_LESS 3.18)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
     return()
   endif()
   get_target_property(sources ${target} SOURCES)
@@ -50,7 +58,7 @@ function(plm_group_by_folder target)
     string(MAKE_C_IDENTIFIER "in_${folder}" group)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
   endforeach()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
 
 # plm_add_nodelet(NAME SOURCES...): a library of nodelets, listed in nodelet_plugins.xml.
@@ -67,7 +75,7 @@ function(plm_add_tests program)
   cmake_parse_arguments(ARG "" "" "TESTS;LIBRARIES" ${ARGN})
   list(TRANSFORM ARG_TESTS APPEND _test.cpp OUTPUT_VARIABLE sources)
   add_executable(${program} EXCLUDE_FROM_ALL ${sources})
-  plm_group_by_folder(${program})
+  plm_group_sources(${program})
   add_dependencies(tests ${program})
   plm_use_header_set(test ${program})
   target_link_libraries(${program} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::GTest GTest::Main)
@@ -111,7 +119,7 @@ endfunction()
 # The common part of plm_add_executable and plm_add_node.
 function(plm_add_program header_set name)
   add_executable(${name} ${ARGN})
-  plm_group_by_folder(${name})
+  plm_group_sources(${name})
   plm_use_header_set(${header_set} ${name})
   install(TARGETS ${name} RUNTIME DESTINATION lib/${PROJECT_NAME})
   if(BUILD_TESTING)

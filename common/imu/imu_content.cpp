@@ -15,8 +15,8 @@ constexpr int64_t kMinSpan_ns = 2'000'000'000;
 constexpr double kMemory = 10;         // [s]
 constexpr double kMaxForgotten = 0.1;  // by a gap
 
-constexpr double kTolerance = 0.3;  // relative, of a norm near that of gravity
-constexpr double kFarBelow = 0.3;   // largest share of gravity that is far below it
+constexpr double kNormTolerance = 0.3;  // relative, of a norm near that of gravity
+constexpr double kFarBelow = 0.3;       // largest share of gravity that is far below it
 constexpr double kFastTurn = 4.0;  // [rad/s]; agile flights exceed it in a few samples of a hundred
 
 struct Reading {
@@ -30,7 +30,7 @@ bool IsPresent(const Eigen::Vector3d& reading) {
 }
 
 bool IsNear(double value, double expected) {
-  return value > (1 - kTolerance) * expected && value < (1 + kTolerance) * expected;
+  return value > (1 - kNormTolerance) * expected && value < (1 + kNormTolerance) * expected;
 }
 
 bool IsAny(const Reading&) { return true; }

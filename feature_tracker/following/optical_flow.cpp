@@ -11,8 +11,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMaxIterations = 30;
-constexpr double kConverged_px = 0.03;
+constexpr int kMaxFlowIterations = 30;
+constexpr double kFlowConverged_px = 0.03;
 constexpr float kStandstill_px = 0.01F;  // a step that reverts the previous one oscillates
 constexpr int kBackwardLevels = 0;  // coarsest level of the backward search, whose end is known
 constexpr double kMaxReturnError_px = 0.5;  // of the forward and backward search together
@@ -25,11 +25,11 @@ bool IsInside(const cv::Mat& image, const cv::Point2f& point) {
 // Moves `point` of a pyramid level to the window's position; returns false if it leaves the image.
 bool Converge(const cv::Mat& level, FlowWindow* window, cv::Point2f* point) {
   cv::Point2f before;
-  for (int i = 0; i < kMaxIterations; ++i) {
+  for (int i = 0; i < kMaxFlowIterations; ++i) {
     const auto step = window->Step(level, *point);
     if (!step) return false;
     *point += *step;
-    if (step->dot(*step) <= kConverged_px * kConverged_px) return true;
+    if (step->dot(*step) <= kFlowConverged_px * kFlowConverged_px) return true;
     const cv::Point2f both = *step + before;
     if (i > 0 && std::abs(both.x) < kStandstill_px && std::abs(both.y) < kStandstill_px) {
       *point -= *step / 2;

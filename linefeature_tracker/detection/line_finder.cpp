@@ -11,9 +11,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr float kReach_px = 2;      // samples reach this far to each side
-constexpr double kSpacing_px = 4;   // between samples
-constexpr double kMaxSamples = 16;  // for long lines
+constexpr float kReach_px = 2;           // samples reach this far to each side
+constexpr double kSampleSpacing_px = 4;  // between samples
+constexpr double kMaxSamples = 16;       // for long lines
 
 constexpr double kMinFragment = 0.7;  // minimum length of fragments, relative to that of lines
 
@@ -21,7 +21,8 @@ constexpr double kMinFragment = 0.7;  // minimum length of fragments, relative t
 
 LineSegment OrientByBrightness(const cv::Mat& image, const LineSegment& segment_px) {
   const Eigen::Vector2f side = kReach_px * segment_px.Normal().cast<float>();
-  const int count = static_cast<int>(std::min(segment_px.Length() / kSpacing_px, kMaxSamples)) + 1;
+  const int count =
+      static_cast<int>(std::min(segment_px.Length() / kSampleSpacing_px, kMaxSamples)) + 1;
   float rise = 0;
   for (int i = 0; i < count; ++i) {
     const double share = (i + 0.5) / count;

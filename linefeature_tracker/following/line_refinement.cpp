@@ -15,8 +15,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kStep_px = 4;      // between samples along a line
-constexpr double kMaxSamples = 32;  // longer lines have a larger step
+constexpr double kStep_px = 4;             // between samples along a line
+constexpr double kMaxRefinedSamples = 32;  // longer lines have a larger step
 constexpr double kMaxRoughSamples = 12;
 constexpr int kMaxSearch_px = 5;       // search range to each side
 constexpr int kFineSearch_px = 2;      // after the rough placement
@@ -91,7 +91,7 @@ std::optional<LineSegment> LineRefinement::PlaceRoughly(const cv::Mat& image,
 
 std::optional<LineSegment> LineRefinement::Place(const cv::Mat& image,
                                                  const LineSegment& rough) const {
-  const double step = Step(rough, kMaxSamples);
+  const double step = Step(rough, kMaxRefinedSamples);
   std::vector<EdgePoint> points = LocateEdges(image, rough, step, kExtension, kFineSearch_px);
   const std::vector<EdgePoint> edges = OnEdges(points);
   if (edges.size() < kMinPoints) return std::nullopt;

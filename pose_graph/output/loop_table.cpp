@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/output/loop_table.h"
 
-#include <cmath>
 #include <optional>
 
 #include "common/format.h"
+#include "common/geometry/so3.h"
 
 namespace plm_vins {
 namespace {
-
-constexpr double kDegreesPerRadian = 180 / M_PI;
 
 void WriteNumber(double value, std::ostream* stream) { *stream << Format(",%.4f", value); }
 
@@ -56,7 +54,7 @@ void WriteLoopRow(const LoopCandidate& candidate, std::ostream* stream) {
   WriteValue(candidate.graph_error, stream);
   const LevelTransform& T = candidate.T_earlier_later;
   for (int i = 0; i < 3; ++i) WriteNumber(T.translation(i), stream);
-  WriteNumber(T.yaw * kDegreesPerRadian, stream);
+  WriteNumber(ToDegrees(T.yaw), stream);
   *stream << ',' << candidate.later_camera << ',' << candidate.earlier_camera << '\n';
 }
 

@@ -140,8 +140,10 @@ void CheckImages(const Config& config, const Report& report) {
   }
 }
 
-bool IsName(const std::string& text) {
-  return !text.empty() && text.find_first_of(" \t\r\n") == std::string::npos;
+Problem CheckName(const std::string& name) {
+  if (name.empty()) return "is empty; give a name";
+  if (name.find_first_of(" \t\r\n") != std::string::npos) return "must be a name without spaces";
+  return std::nullopt;
 }
 
 using NamedKeys = std::vector<std::pair<std::string, std::string>>;  // keys with their values
@@ -162,7 +164,7 @@ void CheckTopics(const SensorConfig& sensor, const Report& report) {
   topics.emplace_back("imu_topic", sensor.imu_topic);
   if (sensor.depth) topics.emplace_back("depth_topic", sensor.depth->topic);
   for (const auto& [key, topic] : topics) {
-    if (!IsName(topic)) report(key, "must be a name without spaces");
+    if (const Problem problem = CheckName(topic)) report(key, *problem);
   }
   CheckDistinct(topics, report);
 }
@@ -222,7 +224,7 @@ void CheckMask(const Config& config, const Report& report) {
 }  // namespace
 
 Problem CheckFrameName(const std::string& name) {
-  if (!IsName(name)) return "must be a name without spaces";
+  if (const Problem problem = CheckName(name)) return problem;
   if (name.front() == '/') return "must not begin with a slash: tf2 rejects it";
   return std::nullopt;
 }

@@ -341,6 +341,7 @@ TEST_F(ConfigTest, Contradictions) {
   ExpectProblem("manhattan_frame: body", {"manhattan_frame: is the same as body_frame"});
   ExpectProblem("world_frame: my world", {"world_frame: must be a name without spaces"});
   ExpectProblem("world_frame: \"map\\n\"", {"world_frame: must be a name without spaces"});
+  ExpectProblem("body_frame: \"\"", {"body_frame: is empty; give a name"});
   ExpectProblem("world_frame: /map", {"world_frame: must not begin with a slash"});
   ExpectProblem("min_dist: 490", {"min_dist: must be smaller than the image"});
   ExpectProblem("fisheye_mask: no.png", {"fisheye_mask: cannot find the file", "no.png"});
@@ -349,6 +350,8 @@ TEST_F(ConfigTest, Contradictions) {
                     "correct it or the image size"});
   ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "/imu\"", "/image\""))),
                    {"imu_topic: is the same as image_topic"});
+  ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "\"/image\"", "\"\""))),
+                   {"image_topic: is empty; give a name"});
 }
 
 TEST_F(ConfigTest, OverridesAreChecked) {

@@ -18,6 +18,7 @@ from kalibr.sections import KalibrError, read_section
 
 MAX_CAMERAS = 4
 MAX_TIME_DIFFERENCE = 1e-3  # between cameras that are triggered together [s]
+MAX_TD = 0.1  # of camera and IMU that are stamped by one clock [s]
 
 
 def extrinsic_lines(T_B_C, td):
@@ -37,13 +38,17 @@ def further_camera_lines(number, camera, T_B_C):
 
 
 def warnings_of(chain, imu, names):
-    """Returns what a conversion leaves out."""
+    """Returns what a conversion leaves out, and what is implausible."""
     others = [key for key in chain.values if re.fullmatch(r"cam\d+", str(key)) and key not in names]
     warnings = []
     if others:
         warnings.append(f"{chain.file}: {', '.join(others)} not converted; --cam"
                         f" {' '.join([*names, *others])} does that")
     offsets = {name: imu.time_offset_of(chain.section(name)) for name in names}
+    if abs(offsets[names[0]]) > MAX_TD:
+        warnings.append(f"{chain.file}: td of {names[0]} is {offsets[names[0]]:.3g} s by"
+                        " timeshift_cam_imu, which is implausible: camera and IMU must be stamped"
+                        " by one clock; correct the stamps and calibrate anew")
     for name in names[1:]:
         later = offsets[name] - offsets[names[0]]
         if abs(later) > MAX_TIME_DIFFERENCE:

@@ -444,6 +444,12 @@ class Contradictions(Kalibr):
         self.assertEqual(result.returncode, 0)
         self.assertIn("cam1.timeshift_cam_imu differs from that of cam0 by 5 ms", result.stderr)
 
+    def test_implausible_time_shift(self):
+        self.assertEqual(self.convert().stderr, "")
+        result = self.convert(chain={"cam0": edited(CAMERA, timeshift_cam_imu=1.45)})
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("td of cam0 is 1.45 s by timeshift_cam_imu", result.stderr)
+
     def test_plumb_bob_of_ros_has_five_coefficients(self):
         five = edited(CAMERA, distortion_model="plumb_bob",
                       distortion_coeffs=[*CAMERA["distortion_coeffs"], 0.0])

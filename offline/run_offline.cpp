@@ -306,6 +306,7 @@ int Run(const Arguments& arguments) {
   if (outputs.map) {
     Try([&] { SaveMapTo(arguments.map_out, outputs.loops->map(), &*outputs.map); }, &failures);
   }
+  if (const auto last_ns = pipeline.last_image_ns()) outputs.report.End(*last_ns);
   int exit_code = 1;
   const auto finish = [&] {
     Finish(run, config, pipeline, summary_parts, &outputs);

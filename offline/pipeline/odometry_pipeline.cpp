@@ -119,7 +119,7 @@ void OdometryPipeline::Run(FeatureFileReader* features, RecordingInterval interv
     if (part == RecordingInterval::Part::kSkip) continue;
     if (item->frame) {
       if (!use_lines_) item->frame->lines.reset();
-      first_image_.Add(item->t_ns());
+      AddImageStamp(item->t_ns());
       ++images_;
     }
     Consume(std::move(*item), on_frame);
@@ -181,11 +181,16 @@ void OdometryPipeline::AddImage(const RecordingEvent& event, cv::Mat image) {
   using Kind = RecordingEvent::Kind;
   if (event.kind == Kind::kDepth) return trackers_.AddDepth({event.t_ns, std::move(image)});
   if (event.camera == 0) {
-    first_image_.Add(event.t_ns);
+    AddImageStamp(event.t_ns);
     image_stamps_.Add(event.t_ns);
     stamp_faults_.Set(event.t_ns, image_stamps_.Finding("image_topic " + image_topic_), kStamps);
   }
   trackers_.AddImage(event.camera, {event.t_ns, std::move(image)});
+}
+
+void OdometryPipeline::AddImageStamp(int64_t t_ns) {
+  first_image_.Add(t_ns);
+  last_image_ns_ = t_ns;
 }
 
 bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit) {

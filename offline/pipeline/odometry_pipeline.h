@@ -85,6 +85,7 @@ class OdometryPipeline {
   // Number of images that were not thinned out by `freq` but did not reach the estimator either.
   int64_t unused_images() const { return images() - thinned_images_ - estimated_images_; }
   std::optional<int64_t> first_image_ns() const { return first_image_.t_ns(); }
+  std::optional<int64_t> last_image_ns() const { return last_image_ns_; }  // used or not
   std::optional<int64_t> last_frame_ns() const { return last_frame_ns_; }  // last estimated frame
   // First timestamp of all samples that were read, whether used or not.
   std::optional<int64_t> first_imu_ns() const { return first_imu_.t_ns(); }
@@ -119,6 +120,7 @@ class OdometryPipeline {
                    const TrackedReceiver& emit);
   bool Feed(LoadedEvent loaded, const TrackedReceiver& emit);
   void AddImage(const RecordingEvent& event, cv::Mat image);
+  void AddImageStamp(int64_t t_ns);
   bool EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit);
   void ShowTracksIfDue(int64_t t_ns);
   void Consume(TrackedItem item, const FrameCallback& on_frame);
@@ -137,7 +139,7 @@ class OdometryPipeline {
   FindingMemory stamp_faults_, still_parts_, sensor_faults_;
   std::string imu_contradiction_;    // the last one that was not empty
   int64_t contradicted_images_ = 0;  // images with a contradiction
-  std::optional<int64_t> last_frame_ns_;
+  std::optional<int64_t> last_image_ns_, last_frame_ns_;
   int64_t images_ = 0;
   int64_t unreadable_images_ = 0;
   int64_t tracked_images_ = 0;

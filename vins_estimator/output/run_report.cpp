@@ -31,20 +31,27 @@ std::string Kind(const std::string& reason) {
 }  // namespace
 
 void RunReport::Add(const EstimatorOutput& output) {
-  const int64_t interval_ns = newest_ns_ ? output.t_ns - *newest_ns_ : 0;
-  if (!first_ns_) first_ns_ = output.t_ns;
-  newest_ns_ = output.t_ns;
-  const double interval = std::max(0.0, ToSeconds(interval_ns));  // clocks may be set back
-  elapsed_ += interval;
-  if (interval > kLongestInterval) {
-    without_pose_[kNoImage] += interval;
-  } else if (!output.has_pose) {
+  const double interval = Elapse(output.t_ns);
+  if (interval <= kLongestInterval && !output.has_pose) {
     without_pose_[Kind(output.reason)] += interval;
   }
   if (output.restarted) restart_reason_ = output.reason;
   if (!output.has_pose || (!worlds_.empty() && !restart_reason_)) return;
   worlds_.push_back({elapsed_, restart_reason_.value_or("")});
   restart_reason_.reset();
+}
+
+void RunReport::End(int64_t last_image_ns) {
+  if (newest_ns_) Elapse(last_image_ns);
+}
+
+double RunReport::Elapse(int64_t t_ns) {
+  if (!first_ns_) first_ns_ = newest_ns_ = t_ns;
+  const double interval = std::max(0.0, ToSeconds(t_ns - *newest_ns_));  // clocks may be set back
+  newest_ns_ = t_ns;
+  elapsed_ += interval;
+  if (interval > kLongestInterval) without_pose_[kNoImage] += interval;
+  return interval;
 }
 
 std::vector<std::string> RunReport::Lines(std::optional<int64_t> first_image_ns) const {

@@ -18,6 +18,9 @@ class RunReport {
   // Adds an output; outputs must be in order of arrival.
   void Add(const EstimatorOutput& output);
 
+  // Adds the time from the last output to the last image, used or not.
+  void End(int64_t last_image_ns);
+
   // Returns a line on the world frames and one on the time without a pose. Times are since the
   // first image, used or not, if its timestamp is known, otherwise since the first output.
   std::vector<std::string> Lines(std::optional<int64_t> first_image_ns) const;
@@ -35,6 +38,8 @@ class RunReport {
     std::string reason;  // why the previous one ended
   };
 
+  // Returns the time since the previous call [s], which has no pose if it is a gap.
+  double Elapse(int64_t t_ns);
   std::string DescribeWorlds(double lead) const;
   std::string DescribeTimeWithoutPose(double lead) const;
   // Returns the reasons for times without a pose, the longest time first.

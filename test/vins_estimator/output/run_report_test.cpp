@@ -68,6 +68,17 @@ TEST_F(RunReportTest, StatesReasonsOfNewWorldsAndMissingPoses) {
   EXPECT_EQ(report_.LastRestart(), "velocity is 60 m/s");
 }
 
+TEST_F(RunReportTest, CountsImagesAfterTheLastOutput) {
+  report_.End(ToNanoseconds(100));
+  EXPECT_THAT(report_.Lines(std::nullopt), IsEmpty());
+  Until(5, Pose());
+  report_.End(ToNanoseconds(112));
+  EXPECT_THAT(report_.Lines(std::nullopt),
+              ElementsAre("1 world frame: from 0.00 s on",
+                          "no pose for 7.1 of 12.0 s: no usable image (7.1 s)"));
+  EXPECT_EQ(report_.WhyOftenWithoutPose(), "no usable image");
+}
+
 TEST_F(RunReportTest, SaysWhyThereIsOftenNoPose) {
   EXPECT_THAT(report_.WhyOftenWithoutPose(), IsEmpty());
   Until(1, Without("collecting images: 0.1 s of 1.5 s"));

@@ -7,16 +7,25 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kStamps = 201;         // newest timestamps, from which bursts are detected
-constexpr size_t kMinBursts = 5;        // minimum number of bursts among them
-constexpr double kShort = 0.25;         // longest interval within a burst, relative to the mean
-constexpr double kMinShortShare = 0.6;  // minimum share of short intervals; bursts of 3 have 2/3
+constexpr size_t kStamps = 201;          // newest timestamps, from which bursts are detected
+constexpr size_t kMinBursts = 5;         // minimum number of bursts among them
+constexpr double kShort = 0.25;          // longest interval within a burst, relative to the mean
+constexpr double kMinShortShare = 0.45;  // minimum share of short intervals; pairs have 1/2
 constexpr int64_t kLongestPause_ns = 250'000'000;  // longest pause; a longer one is a gap
 constexpr double kCorrection = 0.1;  // share of the phase error that each burst corrects
+
+bool AreCopies(const ImuSample& a, const ImuSample& b) {
+  return a.t_ns == b.t_ns && a.gyro == b.gyro && a.accel == b.accel;
+}
 
 }  // namespace
 
 ImuSample ImuBursts::Spread(ImuSample sample) {
+  if (newest_ && AreCopies(*newest_, sample)) {
+    sample.t_ns = spread_ns_.value_or(sample.t_ns);
+    return sample;
+  }
+  newest_ = sample;
   const int64_t pause_ns = stamps_.empty() ? 0 : sample.t_ns - stamps_.back();
   if (pause_ns < 0 || pause_ns > kLongestPause_ns) {
     stamps_.clear();

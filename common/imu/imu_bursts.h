@@ -11,7 +11,8 @@
 namespace plm_vins {
 
 // Detects samples that arrive in bursts and are stamped on arrival (by a driver that empties a
-// FIFO), and spaces their timestamps evenly. Other samples are unchanged, bit by bit.
+// FIFO), or whose timestamps are rounded so that they repeat, and spaces their timestamps evenly.
+// Other samples are unchanged, bit by bit. Copies, as by a second publisher, belong to no burst.
 //
 // The last sample of a burst is the youngest, so its timestamp is taken as correct; the other
 // samples precede it in steps of the mean interval. Samples are returned at once, in temporal
@@ -31,7 +32,8 @@ class ImuBursts {
   // `late_ns`: last timestamp of the previous burst minus the one that was assigned to it.
   int64_t SpreadStamp(int64_t t_ns, int64_t late_ns);
 
-  std::deque<int64_t> stamps_;  // newest timestamps, as received
+  std::optional<ImuSample> newest_;  // as received
+  std::deque<int64_t> stamps_;       // newest timestamps, as received
   size_t size_ = 0;
   int64_t interval_ns_ = 0;
   std::optional<int64_t> spread_ns_;  // newest assigned timestamp; nullopt if there is none

@@ -31,13 +31,14 @@ class ConstantStamp {
     }
     if (messages_ < kMinRounded || share_ < kMost) return "";
     return Format("%.0f %% of the stamps of ", 100 * share_) + topic +
-           " repeat the previous one: its driver must not round them (header.stamp)";
+           " repeat the previous one: its driver must not round them (header.stamp), and only one "
+           "node may publish them";
   }
 
  private:
   static constexpr int64_t kMinMessages = 20, kMinRounded = 210;  // exceeds those of ImuBursts
   static constexpr int64_t kMaxRounded = 1000;  // messages in a row, by whole seconds
-  static constexpr double kMost = 0.7;  // two sources of the same messages repeat half of them
+  static constexpr double kMost = 0.3;          // two publishers repeat half of them
 
   int64_t messages_ = 0;
   int64_t repeated_in_a_row_ = 0;

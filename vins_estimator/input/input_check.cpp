@@ -32,7 +32,7 @@ std::string InputCheck::Finding(const ImuBursts& bursts) const {
 std::string InputCheck::BurstFinding(const ImuBursts& bursts) const {
   if (bursts.size() == 0) return "";
   return "samples on " + imu_ +
-         Format(" come in bursts of %zu, stamped on arrival", bursts.size()) +
+         Format(" come in bursts of %zu, stamped on arrival or rounded", bursts.size()) +
          Format(": their stamps are spread by %.1f ms each", 1e3 * bursts.interval()) +
          "; let the driver stamp each sample, or set estimate_td: 1";
 }

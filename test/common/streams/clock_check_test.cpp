@@ -14,6 +14,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 // Returns the finding of ten seconds of images at 20 Hz and IMU samples at 200 Hz in order of time.
 // `stamp` says how a sensor stamps what it took at a time, in milliseconds; below zero: not at all.
@@ -76,16 +77,18 @@ TEST(ClockCheck, AllowsOffsetsGapsLateStartsAndStalls) {
   EXPECT_THAT(check.Finding("/cam", "/imu"), IsEmpty());
 }
 
-// Whole seconds or tenths of images at 20 Hz.
+// Whole seconds, tenths or twentieths of images at 20 Hz.
 TEST(ConstantStamp, NamesStampsThatAreRounded) {
-  for (const int64_t step_ns : {1'000'000'000, 100'000'000}) {
+  for (const auto& [step_ns, text] :
+       {std::pair{1'000'000'000, "95 % of the stamps of /camera"},
+        std::pair{100'000'000,
+                  "50 % of the stamps of /camera repeat the previous one: its driver "
+                  "must not round them (header.stamp), and only one node"},
+        std::pair{50'000'000, ""}}) {
     ConstantStamp stamps;
     for (int64_t i = 0; i < 400; ++i) stamps.Add(i * 50'000'000 / step_ns * step_ns);
-    EXPECT_EQ(stamps.Finding("/camera"),
-              step_ns == 1'000'000'000
-                  ? "95 % of the stamps of /camera repeat the previous one: its driver must not "
-                    "round them (header.stamp)"
-                  : "");
+    EXPECT_THAT(stamps.Finding("/camera"), StartsWith(text));
+    EXPECT_EQ(stamps.Finding("/camera").empty(), step_ns == 50'000'000);
   }
 }
 
@@ -106,7 +109,7 @@ TEST(ConstantStamp, FaultsPass) {
   ConstantStamp stamps;
   for (int i = 0; i < 2000; ++i) stamps.Add(i / 20);
   EXPECT_NE(stamps.Finding("/cam"), "");
-  for (int i = 0; i < 100; ++i) stamps.Add(1000 + i);
+  for (int i = 0; i < 300; ++i) stamps.Add(1000 + i);
   EXPECT_EQ(stamps.Finding("/cam"), "");
   for (int i = 0; i < 2000; ++i) stamps.Add(5000);
   EXPECT_THAT(stamps.Finding("/cam"), HasSubstr("all stamps of /cam are the same"));

@@ -4,7 +4,9 @@
 #include <XmlRpcValue.h>
 #include <ros/console.h>
 #include <ros/exceptions.h>
+#include <ros/init.h>
 
+#include <iostream>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -84,7 +86,13 @@ Config LoadNodeConfig(const ros::NodeHandle& private_node) {
 
 void LogFatal(const std::exception& error) {
   std::istringstream text(error.what());
-  for (std::string line; std::getline(text, line);) ROS_FATAL_STREAM(line);
+  for (std::string line; std::getline(text, line);) {
+    if (ros::ok()) {
+      ROS_FATAL_STREAM(line);
+    } else {
+      std::cerr << line << std::endl;  // the log of ROS is shut down
+    }
+  }
 }
 
 }  // namespace plm_vins

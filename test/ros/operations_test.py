@@ -52,12 +52,12 @@ class OperationsTest(unittest.TestCase):
     def play(self, *options):
         return self.processes.start("player", ["rosbag", "play", "--delay", "1", *options, BAG])
 
-    def assert_end_on(self, number, nodes):
+    def assert_end_on(self, number, nodes, exit_code=0):
         for node in nodes.values():
             node.send_signal(number)
         begin = time.monotonic()
         for name, node in nodes.items():
-            self.assertEqual(node.wait(END_LIMIT), 0, self.processes.log(name))
+            self.assertEqual(node.wait(END_LIMIT), exit_code, self.processes.log(name))
         self.assertLess(time.monotonic() - begin, END_LIMIT)
 
     def stamps_in_file(self):
@@ -179,7 +179,8 @@ class CalibrationInUse(OperationsTest):
         self.assertRegex(response.message, f"poses saved to {trajectory}, but not the calibration: "
                          f"{config} is the configuration in use")
         trajectory.unlink()
-        self.assert_end_on(signal.SIGINT, {"vins_estimator": estimator})
+        self.assert_end_on(signal.SIGINT, {"vins_estimator": estimator}, exit_code=1)
+        self.assertIn("but not the calibration", self.processes.log("vins_estimator"))
         self.assertTrue(trajectory.exists())
         self.assertEqual(config.read_bytes(), CONFIG.read_bytes())
 

@@ -6,7 +6,8 @@
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "vins_estimator", [](const plm_vins::Config& config) {
-    const auto node = plm_vins::MakeEstimatorNode(config, ros::NodeHandle(), ros::NodeHandle("~"));
+    plm_vins::EstimatorNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
     plm_vins::Spin();
+    node.Finish();
   });
 }

@@ -88,18 +88,22 @@ EstimatorNode::EstimatorNode(const Config& config, const ros::NodeHandle& node,
 }
 
 EstimatorNode::~EstimatorNode() {
+  try {
+    Finish();
+  } catch (const std::runtime_error& error) {
+    std::cerr << error.what() << std::endl;  // the log of ROS is shut down by now
+  }
+}
+
+void EstimatorNode::Finish() {
+  if (!worker_.joinable()) return;
   queue_.Close();
   services_.clear();  // waits for a running service call, which writes the same files
   worker_.join();
   for (const std::string& line : report_.Lines(std::nullopt)) {
     std::cerr << private_node_.getNamespace() << ": " << line << std::endl;
   }
-  if (file_at_end_.empty() || trajectory_.empty()) return;
-  try {
-    Save(file_at_end_);
-  } catch (const std::runtime_error& error) {
-    std::cerr << error.what() << std::endl;  // the log of ROS is shut down by now
-  }
+  if (!file_at_end_.empty() && !trajectory_.empty()) Save(file_at_end_);
 }
 
 void EstimatorNode::AddImu(const sensor_msgs::Imu& message) {

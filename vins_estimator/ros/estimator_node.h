@@ -44,12 +44,16 @@ namespace plm_vins {
 //
 // Services: ~reset reinitializes; ~save_trajectory writes the poses so far to ~trajectory_file
 // (default trajectory.tum in the node's working folder) and, if the calibration is refined,
-// calibrated.yaml beside it. The node also saves both when it exits if ~trajectory_file is set.
+// calibrated.yaml beside it. The node also saves both at the end if ~trajectory_file is set.
 class EstimatorNode {
  public:
   EstimatorNode(const Config& config, const ros::NodeHandle& node,
                 const ros::NodeHandle& private_node);
   ~EstimatorNode();
+
+  // Ends the worker and saves the files. Throws std::runtime_error if one cannot be written; the
+  // destructor, which finishes as well, prints the reason.
+  void Finish();
 
  private:
   struct ResetCommand {

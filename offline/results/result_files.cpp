@@ -59,17 +59,12 @@ std::string Prepared(const std::string& folder, const std::string& config_file) 
 
 ResultFiles::ResultFiles(const std::string& folder, const std::string& config_file)
     : folder_(Prepared(folder, config_file)),
-      config_file_(config_file),
       trajectory_(File("trajectory.tum")),
       covariance_(File("covariance.csv"), CovarianceHeader()),
       timing_(File("timing.csv")),
       map_(File("map.ply")),
       summary_(ColumnsOf(PipelineFrame())) {
   WriteFrameHeader(ColumnsOf(PipelineFrame()), &timing_.stream());
-}
-
-ResultFiles::~ResultFiles() {
-  if (!is_finished_) RemoveEarlierResults(folder_, config_file_);
 }
 
 std::string ResultFiles::File(const std::string& name) const {
@@ -150,7 +145,6 @@ void ResultFiles::Finish(RunSummary::Run run, const Config& config, const Json& 
     SaveCalibratedConfig(summary_.calibration(), config, File(kCalibratedConfigFile));
   }
   WriteSummary(run, config, parts);  // last: it marks the results as complete
-  is_finished_ = true;
 }
 
 void ResultFiles::WriteLines() const {

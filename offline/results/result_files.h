@@ -21,15 +21,12 @@ namespace plm_vins {
 // Writes the results of an offline run to their folder: trajectory.tum, covariance.csv, timing.csv,
 // summary.json, map.ply, lines.ply, lines.obj, tracks.png, line_tracks.png, tracks/, and
 // calibrated.yaml if the calibration is refined. Rows are written as frames come, which bounds the
-// memory. Without Finish(), as on a full disk, the destructor removes all, which is incomplete.
+// memory.
 class ResultFiles {
  public:
   // Creates the folder, removes earlier results except `config_file`, and opens the files. Throws
   // std::runtime_error with the name of a file that cannot be written; so do the other functions.
   explicit ResultFiles(const std::string& folder, const std::string& config_file = "");
-  ~ResultFiles();
-  ResultFiles(const ResultFiles&) = delete;
-  ResultFiles& operator=(const ResultFiles&) = delete;
 
   void Add(const PipelineFrame& frame);
 
@@ -61,7 +58,7 @@ class ResultFiles {
   void WriteLines() const;
   void WriteSummary(const RunSummary::Run& run, const Config& config, const Json& parts) const;
 
-  std::string folder_, config_file_;
+  std::string folder_;
   TimedFile trajectory_;
   TimedFile covariance_;
   OutputFile timing_;
@@ -72,7 +69,6 @@ class ResultFiles {
   std::vector<MapLine> window_lines_;
   RunSummary summary_;
   DropCount unwritten_pictures_{"pictures_not_written", 0, ""};
-  bool is_finished_ = false;
 };
 
 }  // namespace plm_vins

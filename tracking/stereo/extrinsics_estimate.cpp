@@ -118,7 +118,8 @@ Rigid3d ExtrinsicsEstimate::T_S_C() const {
 }
 
 double ExtrinsicsEstimate::Deviation(const StereoMatch& match) const {
-  return std::sqrt(Variance(Linearize(match)));
+  const Linear linear = Linearize(match);
+  return std::sqrt(Variance(linear) + std::pow(linear.gradient[kZoom] * state_[kZoom], 2));
 }
 
 }  // namespace plm_vins

@@ -158,7 +158,7 @@ std::string StereoMatcher::Finding() const {
   if (shares_ && shares_->found <= kMinFoundShare) {
     return Format(
         "hardly any point of camera %d is found again in camera %d; check that %s and %s are not "
-        "swapped, %s, and that both cameras are triggered together",
+        "swapped, %s, both focal lengths, and that both cameras are triggered together",
         first, second, TopicKey(first).c_str(), TopicKey(second).c_str(),
         TransformKey(second).c_str());
   }
@@ -169,8 +169,9 @@ std::string StereoMatcher::Finding() const {
         second, 100 * extrinsics_.zoom(), first);
   }
   if (std::abs(extrinsics_.delay()) > kReportedDelay) {
-    return Format("camera %d is %.1f ms late against its timestamps; trigger all cameras together",
-                  second, 1e3 * extrinsics_.delay());
+    return Format("camera %d is %.1f ms %s against its timestamps; trigger all cameras together",
+                  second, 1e3 * std::abs(extrinsics_.delay()),
+                  extrinsics_.delay() > 0 ? "late" : "early");
   }
   const double angle = extrinsics_.rotation().norm();
   if (angle < kReportedAngle) return "";

@@ -88,6 +88,7 @@ LengthCheck::LengthCheck(const SensorConfig& sensor, double point_noise_px,
 
 void LengthCheck::Interrupt() {
   piece_.clear();
+  used_ns_.reset();
   judged_ns_.reset();
 }
 
@@ -95,6 +96,7 @@ void LengthCheck::Add(const FrameMeasurement& measurement) {
   if (is_known_) return;
   if (!piece_.empty() && LeaveGap(measurement.imu)) Interrupt();
   piece_.push_back(OfSource(measurement));
+  if (DependsOnLength(piece_.back().points)) used_ns_ = measurement.t_ns;
   if (ShortenRest()) return;
   const double duration = ToSeconds(measurement.t_ns - piece_.front().t_ns);
   const bool is_complete = duration > kPiece;
@@ -116,7 +118,7 @@ void LengthCheck::Add(const FrameMeasurement& measurement) {
 }
 
 double LengthCheck::Doubt() const {
-  if (!is_open()) return 0;
+  if (!is_open() || !used_ns_ || ToSeconds(piece_.back().t_ns - *used_ns_) > kPiece) return 0;
   return std::min({1.0, doubt_of_estimator_, std::hypot(ratio_.deviation, ratio_.log_ratio)});
 }
 
@@ -164,6 +166,13 @@ bool LengthCheck::ShortenRest() {
   if (!is_long() || !rests()) return false;
   while (is_long()) piece_.pop_front();
   return true;
+}
+
+bool LengthCheck::DependsOnLength(const PointFrame& frame) const {
+  const auto& points = frame.points;
+  return std::any_of(points.begin(), points.end(), [this](const PointObservation& point) {
+    return pair_ ? point.camera == pair_->second : point.depth.has_value();
+  });
 }
 
 // Keeps the observations by the pair, or by camera 0 with measured depths.

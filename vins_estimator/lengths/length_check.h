@@ -54,7 +54,7 @@ class LengthCheck {
 
   // Returns the relative standard deviation of the length as far as this check or the estimator
   // compared it with the IMU: at most one, and zero once nothing is left to compare, as the length
-  // fits or is not used.
+  // fits or is not used, or while no observation depends on it.
   double Doubt() const;
 
   // Returns whether the length is neither known well nor wrong.
@@ -64,6 +64,7 @@ class LengthCheck {
 
  private:
   FrameMeasurement OfSource(const FrameMeasurement& measurement) const;
+  bool DependsOnLength(const PointFrame& frame) const;
   bool ShortenRest();
   std::optional<RatioCurve> CurveOfPiece();
   void Judge(const RatioCurve& curve);
@@ -73,6 +74,7 @@ class LengthCheck {
   const std::optional<StereoPair> pair_;
   std::deque<FrameMeasurement> piece_;
   std::optional<int64_t> judged_ns_;  // newest image at the last judgement
+  std::optional<int64_t> used_ns_;    // newest image with observations that depend on the length
   RatioCurve earlier_;                // of all pieces before
   RatioEstimate ratio_;
   double scale_information_ = 0;  // of the depths in all pieces before

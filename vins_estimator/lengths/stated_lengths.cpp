@@ -170,6 +170,7 @@ std::string StatedLengths::Describe(const LengthCheck& check) const {
   return TransformKey(second) +
          Format(": by motion and IMU, the baseline of cameras %d and %d is ", first, second) +
          right + Format("not the configured %.3g m, which are ", stated) + factor +
+         ", unless its rotation or a principal point is wrong" +
          Format("; camera %d is not used", second);
 }
 

@@ -99,7 +99,20 @@ TEST(StatedLengths, NameABaselineThatOnlyTheEstimatorKnows) {
   report.cameras = {{1, std::nullopt, std::nullopt, LengthEvidence{-0.2, 0.02}}};
   EXPECT_TRUE(lengths.Add(flight.frames[0], report));
   EXPECT_THAT(lengths.Finding(), HasSubstr("baseline of cameras 0 and 1 is not the configured"));
-  EXPECT_THAT(lengths.Finding(), HasSubstr("which are too long; camera 1 is not used"));
+  EXPECT_THAT(lengths.Finding(), HasSubstr("which are too long, unless its rotation or a "));
+  EXPECT_THAT(lengths.Finding(), HasSubstr("camera 1 is not used"));
+}
+
+TEST(StatedLengths, AreDoubtedWhereTheyAreUsed) {
+  auto flight = FlyWithDepth(1);
+  StatedLengths lengths(testing::ConfigFor(flight));
+  lengths.Add(flight.frames[0]);
+  EXPECT_GT(lengths.Doubt(), 0);
+  for (size_t i = 1; i < 80; ++i) {
+    for (PointObservation& point : flight.frames[i].points.points) point.depth.reset();
+    lengths.Add(flight.frames[i]);
+  }
+  EXPECT_EQ(lengths.Doubt(), 0);
 }
 
 TEST(StatedLengths, LeaveOutDepthsBeyondTheLargest) {

@@ -326,7 +326,8 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   }
   CheckRotations(*measurement, frame.output);
   if (auto& known = frame.output.uncertainty) {
-    AddScaleDeviation(lengths_->Doubt(), frame.output.state, &*known);
+    const double error = world_->rotation_checks.front().error();
+    AddScaleDeviation(std::max(lengths_->Doubt(), error), frame.output.state, &*known);
   }
   sync_.SetTimeOffset(estimator_->time_offset());
   frame.imu = measurement->imu;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "common/geometry/robust_weight.h"
@@ -21,7 +22,7 @@ constexpr int kBiasIterations = 5;
 constexpr double kBiasDeviation = 0.1;  // of the gyro about 0 [rad/s]
 
 // Returns the median difference of the rotations, after a bias of the gyro was fitted [rad].
-double MedianResidual(const std::vector<RotationPair>& pairs, const Eigen::Quaterniond& R_B_C) {
+double MedianResidual(const std::vector<RotationPair>& pairs, const Eigen::Matrix3d& R_B_C) {
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();
   std::vector<double> sizes(pairs.size());
   for (int k = 0; k <= kBiasIterations; ++k) {
@@ -40,6 +41,23 @@ double MedianResidual(const std::vector<RotationPair>& pairs, const Eigen::Quate
   return Median(std::move(sizes));
 }
 
+// Returns the errors of a gyro's axes that turn right-handed rates into left-handed ones, which no
+// rotation does: how to call them, and the matrix by which the readings are multiplied.
+std::vector<std::pair<std::string, Eigen::Matrix3d>> GyroErrors() {
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  std::vector<std::pair<std::string, Eigen::Matrix3d>> errors = {
+      {"the signs are wrong", -Eigen::Matrix3d::Identity()}};
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity(), swap = mirror;
+    mirror(axis, axis) = -1;
+    errors.emplace_back(std::string("the sign of ") + kAxes[axis] + " is wrong", mirror);
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    swap.row(a).swap(swap.row(b));
+    errors.emplace_back(std::string(kAxes[a]) + " and " + kAxes[b] + " are swapped", swap);
+  }
+  return errors;
+}
+
 double MedianTurn(const std::vector<RotationPair>& pairs) {
   std::vector<double> turns;
   turns.reserve(pairs.size());
@@ -54,10 +72,11 @@ std::optional<MountingError> ExplainByMounting(const std::vector<RotationPair>& 
   if (pairs.size() < kMinPairsOfMounting) return std::nullopt;
   const double turn = MedianTurn(pairs);
   if (turn < kMinMedianTurn) return std::nullopt;
-  double least = std::min(kMuchBetter * MedianResidual(pairs, R_B_C), kFitting * turn);
+  const Eigen::Matrix3d R_stated = R_B_C.toRotationMatrix();
+  double least = std::min(kMuchBetter * MedianResidual(pairs, R_stated), kFitting * turn);
   std::optional<MountingError> best;
-  const auto consider = [&](const Eigen::Quaterniond& R, const MountingError& error) {
-    const double residual = MedianResidual(pairs, R);
+  const auto consider = [&](const auto& R, const MountingError& error) {
+    const double residual = MedianResidual(pairs, Eigen::Matrix3d(R));
     if (residual >= least) return;
     least = residual;
     best = error;
@@ -72,6 +91,11 @@ std::optional<MountingError> ExplainByMounting(const std::vector<RotationPair>& 
   for (const int axis : {0, 1}) {
     consider(R_B_C * SO3Exp(M_PI * Eigen::Vector3d::Unit(axis)),
              {MountingError::Kind::kMirrored, M_PI});
+  }
+  // A turn about one axis may look like one in a mirror, which occurs more often.
+  if (best) least *= kMuchBetter;
+  for (const auto& [text, matrix] : GyroErrors()) {
+    consider(matrix * R_stated, {MountingError::Kind::kGyro, M_PI, text});
   }
   return best;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/rotation_calibration/rotation_check.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/camera/camera_model.h"
 #include "common/format.h"
@@ -18,7 +20,7 @@ using Cause = RotationFit::Cause;
 constexpr double kHistory = 0.5;                       // more than the interval of a pair [s]
 constexpr double kStride = 0.3, kStrideInDoubt = 0.1;  // between pairs [s]
 constexpr size_t kMaxPairs = 200;
-constexpr int64_t kFirstPairs = 40;             // of a further camera, before it is known
+constexpr int64_t kFirstPairs = 40;             // before a camera is known
 constexpr int64_t kJudgedPairs = 10;            // between judgements
 constexpr double kMaxExtrinsicsError = 0.17;    // [rad]; larger errors are not linear
 constexpr double kLeastExtrinsicsError = 0.02;  // [rad]; smaller errors are usual
@@ -72,6 +74,11 @@ std::string DescribeMounting(const std::optional<MountingError>& error) {
       ToDegrees(error->angle), error->angle > 3 ? ", as by a camera upside down" : "");
 }
 
+std::string DescribeGyro(const std::string& topic, const std::string& error) {
+  return "imu_topic " + topic + ": of the gyro, " + error + kBy +
+         ": the driver must give right-handed rates in the axes of the accelerometer";
+}
+
 }  // namespace
 
 RotationCheck::RotationCheck(const SensorConfig& sensor, int camera, double point_noise_px)
@@ -91,8 +98,8 @@ void RotationCheck::Add(const FrameMeasurement& measurement, bool in_doubt) {
   frames_.back().lines.reset();
   while (ToSeconds(measurement.t_ns - frames_.front().t_ns) > kHistory) frames_.pop_front();
   if (!Observes(measurement.points, camera_)) return;
-  // A further camera may be wrong without doubt about the estimate, which the others determine.
-  const bool is_unknown = camera_ > 0 && measured_ < kFirstPairs;
+  // Doubt about the estimate takes time, and none arises of a camera if others determine it.
+  const bool is_unknown = measured_ < kFirstPairs;
   const double stride = (in_doubt || is_unknown ? kStrideInDoubt : kStride) - 1e-3;
   if (measured_ns_ && ToSeconds(measurement.t_ns - *measured_ns_) < stride) return;
   measured_ns_ = measurement.t_ns;
@@ -134,9 +141,12 @@ bool RotationCheck::FindGrossError(const Eigen::Quaterniond& R_B_C) {
                                   : 0;
   if (error < kMaxExtrinsicsError) return false;
   const std::string key = camera_ == 0 ? "extrinsicRotation" : TransformKey(camera_);
-  finding_ = {Format("%s is wrong by %.0f deg%s: ", key.c_str(), ToDegrees(error), kBy) +
-                  DescribeMounting(mounting_),
+  const bool is_gyro = mounting_ && mounting_->kind == MountingError::Kind::kGyro;
+  finding_ = {is_gyro ? DescribeGyro(sensor_.imu_topic, mounting_->gyro)
+                      : Format("%s is wrong by %.0f deg%s: ", key.c_str(), ToDegrees(error), kBy) +
+                            DescribeMounting(mounting_),
               kSigmas * error / kLeastExtrinsicsError};
+  error_ = std::min(error, 1.0);
   mounting_was_wrong_ = true;
   return true;
 }
@@ -149,6 +159,7 @@ RotationFit RotationCheck::Explain(const Eigen::Quaterniond& R_B_C) const {
 
 void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
   agrees_ = false;
+  error_ = 0;
   if (FindLag()) return;
   const RotationFit fit = Explain(R_B_C);
   if (fit.cause == Cause::kUnknown && FindGrossError(R_B_C)) return;
@@ -163,6 +174,7 @@ void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
     const bool is_of_further = camera_ > 0 && !text.empty();
     finding_ = {is_of_further ? Format("camera %d: ", camera_) + text : text,
                 kSigmas * std::abs(fit.amount) / LeastAmount(fit.cause)};
+    if (fit.cause != Cause::kTimeOffset) error_ = std::abs(fit.amount);
   }
 }
 

@@ -35,6 +35,10 @@ class RotationCheck {
   // Returns whether the inverse of the configured rotation fits.
   bool is_inverted() const { return mounting_ && mounting_->kind == MountingError::Kind::kInverse; }
 
+  // Relative error that was found and is not refined: that of the rotation [rad], of the lens, or
+  // of the gyro. It makes the scale wrong by about as much.
+  double error() const { return error_; }
+
   // Returns whether the rotations agree: an error of the calibration is not one of them.
   bool agrees() const { return agrees_; }
 
@@ -55,6 +59,7 @@ class RotationCheck {
   std::optional<int64_t> measured_ns_;  // newest image of the last pair
   int64_t measured_ = 0;                // number of pairs so far
   RankedFinding finding_;
+  double error_ = 0;
   std::optional<MountingError> mounting_;
   bool agrees_ = false, mounting_was_wrong_ = false;
 };

@@ -24,11 +24,13 @@ SimulatedFlight Fly(uint64_t seed, simulator::Motion motion = simulator::Motion:
   return testing::SimulateFlight(options, /*skip=*/4);
 }
 
-std::string Check(const SimulatedFlight& flight) {
+RotationCheck CheckOf(const SimulatedFlight& flight) {
   RotationCheck check(flight.sensor, 0, 0.5);
   for (const FrameMeasurement& frame : flight.frames) check.Add(frame, /*in_doubt=*/true);
-  return check.finding();
+  return check;
 }
+
+std::string Check(const SimulatedFlight& flight) { return CheckOf(flight).finding(); }
 
 TEST(RotationCheck, FindsNothingIfAllIsRight) {
   for (uint64_t seed = 1; seed <= 3; ++seed) {
@@ -57,6 +59,7 @@ TEST(RotationCheck, NamesAWrongFocalLength) {
     for (PointObservation& point : frame.points.points) point.xy /= 1.06;
   }
   EXPECT_EQ(Check(flight).rfind("the focal length is wrong by about +", 0), 0u) << Check(flight);
+  EXPECT_NEAR(CheckOf(flight).error(), 0.06, 0.03);
 }
 
 TEST(RotationCheck, NamesTheCameraOfAWrongFocalLength) {
@@ -107,6 +110,22 @@ TEST(RotationCheck, NamesAMirroredImage) {
       for (PointObservation& point : frame.points.points) point.xy[axis] *= -1;
     }
     EXPECT_THAT(Check(flight), HasSubstr("the image is mirrored")) << axis;
+  }
+}
+
+TEST(RotationCheck, NamesAGyroWithLeftHandedAxes) {
+  Eigen::Matrix3d swap;
+  swap << 0, 1, 0, 1, 0, 0, 0, 0, 1;
+  for (const auto& [text, matrix] :
+       {std::pair<std::string, Eigen::Matrix3d>{"signs are wrong", -Eigen::Matrix3d::Identity()},
+        {"sign of z is wrong", Eigen::Vector3d(1, 1, -1).asDiagonal()},
+        {"x and y are swapped", swap}}) {
+    SimulatedFlight flight = Fly(3);
+    flight.frames.resize(static_cast<size_t>(5 / 0.05));
+    for (FrameMeasurement& frame : flight.frames) {
+      for (ImuSample& sample : frame.imu) sample.gyro = matrix * sample.gyro;
+    }
+    EXPECT_THAT(Check(flight), HasSubstr(text)) << Check(flight);
   }
 }
 

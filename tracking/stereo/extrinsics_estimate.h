@@ -46,8 +46,8 @@ class ExtrinsicsEstimate {
   // By how much its focal length is configured too long, relative to that of the first camera, if
   // the error is certain and matters; otherwise 0.
   double zoom() const;
-  // Standard deviation of Error() due to the uncertain extrinsics and delay, and to the error of the
-  // focal length, which T_S_C() cannot express [px].
+  // Standard deviation of Error() due to the uncertain extrinsics and delay, and to the error of
+  // the focal length, which T_S_C() cannot express [px].
   double Deviation(const StereoMatch& match) const;
 
  private:

@@ -71,8 +71,7 @@ void StoreJacobian(const Matrix15d& sqrt_information,
   if (jacobian == nullptr) return;
   Eigen::Map<Eigen::Matrix<double, 15, kAmbient, Eigen::RowMajor>> ambient(jacobian);
   ambient.setZero();
-  ambient.template leftCols<kTangent>() =
-      sqrt_information.triangularView<Eigen::Upper>() * tangent_jacobian;
+  ambient.template leftCols<kTangent>() = sqrt_information.lazyProduct(tangent_jacobian);
 }
 
 }  // namespace
@@ -110,8 +109,7 @@ Vector15d ImuResidual(const Preintegration& preintegration, const Vector3d& grav
 double ImuChiSquare(const Preintegration& preintegration, const Vector3d& gravity_W,
                     const FrameState& state_i, const FrameState& state_j) {
   const Vector15d residual = ImuResidual(preintegration, gravity_W, state_i, state_j, nullptr);
-  const Vector15d whitened =
-      preintegration.SqrtInformation().triangularView<Eigen::Upper>() * residual;
+  const Vector15d whitened = preintegration.SqrtInformation().lazyProduct(residual);
   return whitened.squaredNorm();
 }
 
@@ -124,7 +122,7 @@ bool ImuFactor::Evaluate(double const* const* parameters, double* residuals,
   const Vector15d residual = ImuResidual(*preintegration_, gravity_W_, state_i, state_j,
                                          jacobians != nullptr ? &tangent : nullptr);
   Eigen::Map<Vector15d> whitened(residuals);
-  whitened = sqrt_information.triangularView<Eigen::Upper>() * residual;
+  whitened = sqrt_information.lazyProduct(residual);
   if (jacobians == nullptr) return true;
 
   StoreJacobian<7>(sqrt_information, tangent.d_residual_d_pose_i, jacobians[0]);

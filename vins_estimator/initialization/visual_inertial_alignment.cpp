@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/visual_inertial_alignment.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "common/format.h"
@@ -86,9 +85,9 @@ void AlignmentSystem::AddInterval(size_t i, const Eigen::Vector3d& fixed_gravity
       full.block<3, 3>(Index::kVelocity, Index::kVelocity);
   covariance.topLeftCorner<3, 3>().diagonal().array() +=
       2 * kPositionDeviation * kPositionDeviation;
-  const Eigen::Matrix<double, 6, 6> information = covariance.inverse();
-  *H += A.transpose() * information * A;
-  *b += A.transpose() * information * right;
+  const Rows weighted = InverseOfSymmetric(covariance) * A;
+  *H += weighted.transpose().lazyProduct(A);
+  *b += weighted.transpose() * right;
 }
 
 bool AlignmentSystem::Solve(const Eigen::Vector3d& fixed_gravity,
@@ -106,12 +105,12 @@ bool AlignmentSystem::Solve(const Eigen::Vector3d& fixed_gravity,
       1 / (options_.accel_bias_deviation * options_.accel_bias_deviation);
   H(scale, scale) += scale_information;
   b(scale) += scale_information;
-  const Eigen::LLT<Eigen::MatrixXd> llt(H);
-  if (llt.info() != Eigen::Success) return false;
-  const Eigen::VectorXd x = llt.solve(b);
+  const auto inverse_factor = InverseCholeskyFactor(H);
+  if (!inverse_factor) return false;
+  const Eigen::VectorXd x = inverse_factor->transpose() * (*inverse_factor * b);
   if (!x.allFinite()) return false;
   result->scale = x(scale);
-  result->scale_deviation = std::sqrt(llt.solve(Eigen::VectorXd::Unit(size, scale))(scale));
+  result->scale_deviation = inverse_factor->col(scale).norm();
   result->gravity_G = fixed_gravity + gravity_basis * x.segment(gravity, gravity_basis.cols());
   result->accel_bias = x.tail<3>();
   result->velocity_G.resize(n);
@@ -138,7 +137,7 @@ std::optional<Eigen::Vector3d> EstimateGyroBias(
       g += weight * J.transpose() * m.information * error;
     }
     gyro_bias -= SolveSymmetric(H, g);
-    covariance = H.inverse();
+    covariance = InverseOfSymmetric(H);
   }
   if (covariance.diagonal().maxCoeff() > std::pow(0.1 * kGyroBiasPrior, 2)) {
     *reason = "the gyro bias is unobservable in these images";

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/lengths/length_likelihood.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "common/geometry/so3.h"
+#include "common/geometry/symmetric_system.h"
 #include "common/geometry/tangent_basis.h"
 
 namespace plm_vins {
@@ -58,6 +58,12 @@ MatrixX BiasEffects(const MeasuredMotion& motion, const ImuBias& bias, const Mot
   return effects;
 }
 
+// Returns J A J^T. Lazy products take a compiler far less time, and paths are short.
+MatrixX Propagated(const MatrixX& J, const MatrixX& A) {
+  const MatrixX half = J.lazyProduct(A);
+  return half.lazyProduct(J.transpose());
+}
+
 // Covariance of the path by the IMU's noise: that of each interval moves all later views, that of
 // its rotation by the gravity that is then inclined.
 MatrixX NoiseCovariance(const MeasuredMotion& motion, const Prediction& path,
@@ -75,8 +81,7 @@ MatrixX NoiseCovariance(const MeasuredMotion& motion, const Prediction& path,
       rows.middleCols<3>(ImuErrorIndex::kRotation) =
           0.5 * dt * dt * Skew(gravity_G) * path.T_G_B[i + 1].R();
     }
-    const MatrixX noise = motion.intervals[i]->Covariance().topLeftCorner<9, 9>();
-    covariance += effect * noise * effect.transpose();
+    covariance += Propagated(effect, motion.intervals[i]->Covariance().topLeftCorner<9, 9>());
   }
   return covariance;
 }
@@ -107,14 +112,14 @@ Eigen::Vector3d MeanGravity(const Prediction& path, const MeasuredMotion& motion
 // diagonal: q ~ N(r mu, r^2 D + I).
 class Spectrum {
  public:
-  Spectrum(const MatrixX& A, const Eigen::LLT<MatrixX>& B, const VectorX& mu, const VectorX& q) {
-    const auto L = B.matrixL();
-    const MatrixX half = L.solve(A);
-    const MatrixX ratio = L.solve(MatrixX(half.transpose()));
-    const Eigen::SelfAdjointEigenSolver<MatrixX> eigen(ratio);
-    d_ = eigen.eigenvalues().cwiseMax(0);
-    mu_ = eigen.eigenvectors().transpose() * L.solve(mu);
-    q_ = eigen.eigenvectors().transpose() * L.solve(q);
+  // Whitening by `W` makes the covariance of the stated path the identity.
+  Spectrum(const MatrixX& A, const MatrixX& W, const VectorX& mu, const VectorX& q) {
+    // Eigenvalues and vectors; Eigen's solver for these takes far longer to compile.
+    const Eigen::JacobiSVD<MatrixX, Eigen::NoQRPreconditioner> eigen(Propagated(W, A),
+                                                                     Eigen::ComputeFullV);
+    d_ = eigen.singularValues();
+    mu_ = eigen.matrixV().transpose() * (W * mu);
+    q_ = eigen.matrixV().transpose() * (W * q);
   }
 
   RatioCurve Curve() const {
@@ -156,11 +161,11 @@ std::optional<RatioCurve> LikelihoodOfRatio(const StatedPath& path, const Measur
   const MatrixX of_biases = BiasEffects(motion, bias, prior, prediction.p_G_C);
   MatrixX predicted =
       NoiseCovariance(motion, prediction, MeanGravity(prediction, motion, prior.gravity_norm));
-  predicted += of_biases * of_biases.transpose();
-  stated += unknown * unknown.transpose();
-  const Eigen::LLT<MatrixX> covariance(stated);
-  if (covariance.info() != Eigen::Success) return std::nullopt;
-  const Spectrum spectrum(predicted, covariance, prediction.p_G_C, q);
+  predicted += of_biases.lazyProduct(of_biases.transpose());
+  stated += unknown.lazyProduct(unknown.transpose());
+  const auto whitening = InverseCholeskyFactor(stated);
+  if (!whitening) return std::nullopt;
+  const Spectrum spectrum(predicted, *whitening, prediction.p_G_C, q);
   const RatioCurve curve = spectrum.Curve();
   const double best = std::exp(curve.Estimate(0).log_ratio);
   const double excess =

@@ -152,9 +152,10 @@ void Refiner::Step(double tolerance) {
 // Returns the standard deviation of R_B_C about its least certain axis, with the bias marginalized
 // [rad].
 double Refiner::Deviation() const {
-  const Eigen::Matrix3d covariance = information_.inverse().topLeftCorner<3, 3>();
-  return std::sqrt(
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues().maxCoeff());
+  const Eigen::Matrix3d covariance = InverseOfSymmetric(information_).topLeftCorner<3, 3>();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(eigen.eigenvalues().maxCoeff());
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/rotation_calibration/rotation_fit.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "common/geometry/so3.h"
+#include "common/geometry/symmetric_system.h"
 #include "vins_estimator/rotation_calibration/epipolar_equations.h"
 
 namespace plm_vins {
@@ -114,7 +114,7 @@ class Fitter {
     basis << Columns(Error::kBias, 3), errors;
     const Eigen::MatrixXd H = basis.transpose() * equations.H * basis;
     const Eigen::VectorXd g = basis.transpose() * equations.g;
-    const Eigen::VectorXd step = H.ldlt().solve(g);
+    const Eigen::VectorXd step = SolveSmallSymmetric(H, g);
     return {-basis * step, 0.5 * g.dot(step)};
   }
 

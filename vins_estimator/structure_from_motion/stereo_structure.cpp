@@ -65,7 +65,7 @@ std::pair<double, double> FitRatio(const std::vector<DepthPair>& depths) {
       H += weight * adjusted * J.transpose();
       g += weight * adjusted * depth.measured;
     }
-    fit = H.partialPivLu().solve(g);
+    fit = H.inverse() * g;
   }
   return {fit[0], std::sqrt(H.inverse()(0, 0))};
 }

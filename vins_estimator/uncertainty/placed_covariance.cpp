@@ -47,7 +47,7 @@ std::optional<Matrix15d> PlacedCovariance(const SlidingWindow& window, int64_t k
     ids.insert(ids.end(), {{BlockKind::kPose, to.state.t_ns}, {BlockKind::kMotion, to.state.t_ns}});
     ImuResidualJacobians jacobians;
     ImuResidual(*to.motion_since_previous, window.gravity_W, from, to.state, &jacobians);
-    const auto whiten = to.motion_since_previous->SqrtInformation().triangularView<Eigen::Upper>();
+    const Matrix15d& whiten = to.motion_since_previous->SqrtInformation();
     const Matrix15d J_from = whiten * jacobians.ByFirst(), J_to = whiten * jacobians.BySecond();
     const Matrix15d next_move = RigidMove(keyframe, to.state);
     const Matrix15d residual = J_from * move + J_to * next_move;

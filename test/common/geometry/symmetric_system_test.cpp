@@ -32,5 +32,15 @@ TEST(SymmetricSystem, IsInverted) {
   EXPECT_MATRIX_NEAR(InverseOfSymmetric(A) * A, Eigen::Matrix3d::Identity(), 1e-12);
 }
 
+TEST(SymmetricSystem, InverseOfCholeskyFactorWhitens) {
+  Eigen::MatrixXd A(3, 3);
+  A << 4, 2, -1, 2, 5, 0, -1, 0, 3;
+  const auto W = InverseCholeskyFactor(A);
+  ASSERT_TRUE(W);
+  EXPECT_MATRIX_NEAR(*W * A * W->transpose(), Eigen::Matrix3d::Identity(), 1e-12);
+  A(2, 2) = 0;
+  EXPECT_FALSE(InverseCholeskyFactor(A));
+}
+
 }  // namespace
 }  // namespace plm_vins

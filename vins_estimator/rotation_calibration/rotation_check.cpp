@@ -20,7 +20,7 @@ using Cause = RotationFit::Cause;
 constexpr double kHistory = 0.5;                       // more than the interval of a pair [s]
 constexpr double kStride = 0.3, kStrideInDoubt = 0.1;  // between pairs [s]
 constexpr size_t kMaxPairs = 200;
-constexpr int64_t kFirstPairs = 40;             // before a camera is known
+constexpr int64_t kFirstPairs = 40;             // of a further camera, before it is known
 constexpr int64_t kJudgedPairs = 10;            // between judgements
 constexpr double kMaxExtrinsicsError = 0.17;    // [rad]; larger errors are not linear
 constexpr double kLeastExtrinsicsError = 0.02;  // [rad]; smaller errors are usual
@@ -98,8 +98,8 @@ void RotationCheck::Add(const FrameMeasurement& measurement, bool in_doubt) {
   frames_.back().lines.reset();
   while (ToSeconds(measurement.t_ns - frames_.front().t_ns) > kHistory) frames_.pop_front();
   if (!Observes(measurement.points, camera_)) return;
-  // Doubt about the estimate takes time, and none arises of a camera if others determine it.
-  const bool is_unknown = measured_ < kFirstPairs;
+  // A further camera may be wrong without doubt about the estimate, which the others determine.
+  const bool is_unknown = camera_ > 0 && measured_ < kFirstPairs;
   const double stride = (in_doubt || is_unknown ? kStrideInDoubt : kStride) - 1e-3;
   if (measured_ns_ && ToSeconds(measurement.t_ns - *measured_ns_) < stride) return;
   measured_ns_ = measurement.t_ns;

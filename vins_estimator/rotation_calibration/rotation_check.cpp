@@ -162,7 +162,8 @@ void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
   error_ = 0;
   if (FindLag()) return;
   const RotationFit fit = Explain(R_B_C);
-  if (fit.cause == Cause::kUnknown && FindGrossError(R_B_C)) return;
+  const bool is_gross = fit.cause == Cause::kExtrinsics && fit.amount > kMaxExtrinsicsError;
+  if ((fit.cause == Cause::kUnknown || is_gross) && FindGrossError(R_B_C)) return;
   agrees_ = fit.cause == Cause::kNone;
   // A gross error lasts while the rotations tell too little.
   if (fit.cause == Cause::kUnknown && mounting_was_wrong_) return;

@@ -21,7 +21,7 @@ constexpr double kLeastTurn = 0.03;     // of a pair [rad]
 constexpr double kAgreement = 1.4;      // largest mean cost of a point that fits
 constexpr double kMinExplained = 0.04;  // share of the cost
 // Points per independent one: pairs of 0.3 s may begin every 0.1 s, and errors of a track last.
-constexpr double kOverlap = 6;
+constexpr double kOverlap = 4;
 constexpr int kIterations = 6;
 constexpr double kLeastDecrease = 0.002;  // share of the cost by which a step is worth its time
 constexpr double kPromising = 0.02;       // likewise, the first step of a cause
@@ -44,7 +44,7 @@ Bounds Limits(Cause cause) {
     case Cause::kExtrinsics:
       return {0.02, 0.3};
     default:
-      return {0.015, 0.3};
+      return {0.02, 0.3};
   }
 }
 

@@ -41,8 +41,6 @@ Bounds Limits(Cause cause) {
     case Cause::kFocalLength:
     case Cause::kDistortion:
       return {0.02, 1.5};
-    case Cause::kExtrinsics:
-      return {0.02, 0.3};
     default:
       return {0.02, 0.3};
   }

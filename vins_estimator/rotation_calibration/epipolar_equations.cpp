@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/epipolar_constraint.h"
 #include "common/geometry/so3.h"
 #include "common/geometry/tangent_basis.h"
 
@@ -124,14 +125,14 @@ class PairGeometry {
   PairVector Derivative(size_t i) const {
     const Point& point = points_[i];
     const auto& [xy0, xy1] = pair_.points[i];
-    const Eigen::Vector3d by_then = point.now.cross(direction_);
-    const double focal_then = (R_now_then_.leftCols<2>() * xy0).dot(by_then);
+    const double focal_then = (R_now_then_.leftCols<2>() * xy0).dot(point.now.cross(direction_));
     const double focal_now = direction_.cross(point.then).head<2>().dot(xy1);
+    const auto pose = EpipolarGradient(1, point.then, point.now, direction_, across_);
     PairVector derivative;
-    derivative.head<3>() = Jr_.transpose() * by_then.cross(point.then);
+    derivative.head<3>() = -Jr_.transpose() * pose.head<3>();
     derivative[kFocal] = focal_then + focal_now;
     derivative[kDistortion] = xy0.squaredNorm() * focal_then + xy1.squaredNorm() * focal_now;
-    derivative.tail<2>() = across_.transpose() * point.normal;
+    derivative.tail<2>() = pose.tail<2>();
     return derivative / (point.line * M_SQRT2 * point.noise);
   }
 

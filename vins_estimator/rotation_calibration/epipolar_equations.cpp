@@ -77,8 +77,6 @@ struct CameraRotation {
     psi = R_C_B * (phi - E * phi - pair.duration * x.segment<3>(Error::kBias) +
                    x[Error::kDelay] * pair.rate_change);
   }
-
-  Eigen::Matrix3d R_now_then() const { return SO3Exp(-psi).toRotationMatrix(); }
 };
 
 // Derivative of psi and of the lens.
@@ -102,7 +100,7 @@ class PairGeometry {
   PairGeometry(const RotationPair& pair, const CameraRotation& rotation, double noise,
                const Error::Vector& x)
       : pair_(pair),
-        R_now_then_(rotation.R_now_then()),
+        R_now_then_(SO3Exp(-rotation.psi).toRotationMatrix()),
         Jr_(SO3RightJacobian(rotation.psi)),
         points_(pair.points.size()) {
     for (size_t i = 0; i < points_.size(); ++i) {

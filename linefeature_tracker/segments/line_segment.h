@@ -36,12 +36,6 @@ inline double DirectedAngle(const LineSegment& a, const LineSegment& b) {
   return std::abs(std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)));
 }
 
-// Angle between the infinite lines, 0 to pi / 2.
-inline double UndirectedAngle(const LineSegment& a, const LineSegment& b) {
-  const double angle = DirectedAngle(a, b);
-  return std::min(angle, M_PI - angle);
-}
-
 // Relative position of two segments, measured along and across the first one.
 struct SegmentRelation {
   double overlap = 0;   // shared length relative to the shorter segment; negative for a gap

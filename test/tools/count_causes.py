@@ -21,7 +21,7 @@ import numpy as np
 R_B_C = np.array([[0, 0, 1], [-1, 0, 0], [0, -1, 0]])
 P_B_C0, P_B_C1 = [0.05, 0.03, 0.02], [0.05, -0.07, 0.02]
 MONO, STEREO, DEPTH = "one camera", "stereo", "depth"
-LENS = {"fx": 240.0, "fy": 240.0, "k1": 0.0, "k2": 0.0}
+LENS = {"fx": 240.0, "fy": 240.0, "cx": 200.0, "cy": 150.0, "k1": 0.0, "k2": 0.0}
 FLIGHTS = {"gentle": "room", "fast": "room", "gentle in a corridor": "corridor"}
 
 
@@ -70,6 +70,9 @@ MISTAKES = [
       for factor in (1.05, 0.95)),
     *((f"second focal length x {factor}", STEREO,
        {"lens1": {"fx": 240 * factor, "fy": 240 * factor}}, FOCAL) for factor in (1.05, 0.98)),
+    ("principal point 16 px off", MONO, {"lens0": {"cx": 216.0}}, "principal point"),
+    ("principal point 12 px too high", MONO, {"lens0": {"cy": 138.0}}, "principal point"),
+    ("second principal point 16 px off", STEREO, {"lens1": {"cx": 216.0}}, "principal point"),
     ("td 50 ms off", MONO, {"td": 0.05}, r"\btd\b"),
     ("td 30 ms off", MONO, {"td": -0.03}, r"\btd\b"),
     ("td 20 ms off", MONO, {"td": 0.02}, r"\btd\b"),
@@ -92,7 +95,7 @@ def matrix(key, values):
 def camera(prefix, lens):
     return [f"{prefix}model_type: PINHOLE", f"{prefix}image_width: 400",
             f"{prefix}image_height: 300", f"{prefix}projection_parameters:",
-            f"   fx: {lens['fx']}", f"   fy: {lens['fy']}", "   cx: 200.0", "   cy: 150.0",
+            *(f"   {key}: {lens[key]}" for key in ("fx", "fy", "cx", "cy")),
             f"{prefix}distortion_parameters:", f"   k1: {lens['k1']}", f"   k2: {lens['k2']}",
             "   p1: 0.0", "   p2: 0.0"]
 

@@ -19,8 +19,8 @@ constexpr int kDirectionIterations = 4;
 constexpr double kLeastInformation = 1e-9;  // of the direction, where nothing translates
 
 // The points of a pair depend on the camera's rotation vector psi, with R_now_then = Exp(-psi), on
-// the focal length and the distortion, and on the direction of translation, in this order.
-constexpr int kFocal = 3, kDistortion = 4, kLocal = 5, kAll = 7;
+// the lens, and on the direction of translation, in this order.
+constexpr int kFocal = 3, kDistortion = 4, kPrincipal = 5, kLocal = 7, kAll = 9;
 using PairVector = Eigen::Matrix<double, kAll, 1>;
 using PairMatrix = Eigen::Matrix<double, kAll, kAll>;
 
@@ -40,6 +40,10 @@ struct Point {
 // By how much a ray across the axis is longer than configured.
 double Factor(const Eigen::Vector2d& xy, const Error::Vector& x) {
   return 1 + x[Error::kFocal] + x[Error::kDistortion] * xy.squaredNorm();
+}
+
+Eigen::Vector3d CorrectedRay(const Eigen::Vector2d& xy, const Error::Vector& x) {
+  return (Factor(xy, x) * xy + x.segment<2>(Error::kPrincipal)).eval().homogeneous();
 }
 
 // Returns the direction of translation that fits best, and sets the errors of the points.
@@ -91,6 +95,7 @@ Eigen::Matrix<double, kLocal, Error::kSize> LocalJacobian(const RotationPair& pa
     J.block<3, 3>(0, Error::kGyro + 3 * k) = -rotation.phi[k] * rotation.R_C_B;
   }
   J(kFocal, Error::kFocal) = J(kDistortion, Error::kDistortion) = 1;
+  J.block<2, 2>(kPrincipal, Error::kPrincipal).setIdentity();
   return J;
 }
 
@@ -105,10 +110,9 @@ class PairGeometry {
         points_(pair.points.size()) {
     for (size_t i = 0; i < points_.size(); ++i) {
       const auto& [xy0, xy1] = pair.points[i];
-      const double factor = Factor(xy1, x);
-      points_[i].then = R_now_then_ * (Factor(xy0, x) * xy0).eval().homogeneous();
-      points_[i].now = (factor * xy1).eval().homogeneous();
-      points_[i].noise = std::abs(factor) * noise;
+      points_[i].then = R_now_then_ * CorrectedRay(xy0, x);
+      points_[i].now = CorrectedRay(xy1, x);
+      points_[i].noise = std::abs(Factor(xy1, x)) * noise;
       points_[i].normal = points_[i].then.cross(points_[i].now);
     }
     direction_ = FitTranslation(&points_);
@@ -123,13 +127,16 @@ class PairGeometry {
   PairVector Derivative(size_t i) const {
     const Point& point = points_[i];
     const auto& [xy0, xy1] = pair_.points[i];
-    const double focal_then = (R_now_then_.leftCols<2>() * xy0).dot(point.now.cross(direction_));
-    const double focal_now = direction_.cross(point.then).head<2>().dot(xy1);
+    const Eigen::Vector2d by_then =
+        R_now_then_.leftCols<2>().transpose() * point.now.cross(direction_);
+    const Eigen::Vector2d by_now = direction_.cross(point.then).head<2>();
+    const double focal_then = by_then.dot(xy0), focal_now = by_now.dot(xy1);
     const auto pose = EpipolarGradient(1, point.then, point.now, direction_, across_);
     PairVector derivative;
     derivative.head<3>() = -Jr_.transpose() * pose.head<3>();
     derivative[kFocal] = focal_then + focal_now;
     derivative[kDistortion] = xy0.squaredNorm() * focal_then + xy1.squaredNorm() * focal_now;
+    derivative.segment<2>(kPrincipal) = by_then + by_now;
     derivative.tail<2>() = pose.tail<2>();
     return derivative / (point.line * M_SQRT2 * point.noise);
   }

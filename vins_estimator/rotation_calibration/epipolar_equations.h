@@ -15,9 +15,10 @@ struct CalibrationError {
   static constexpr int kDelay = 3;       // correction of td [s]
   static constexpr int kFocal = 4;       // by how much the focal length is too long, relative
   static constexpr int kDistortion = 5;  // rays (x, y) are (1 + d r^2) (x, y), with r^2 = x^2 + y^2
-  static constexpr int kExtrinsics = 6;  // right perturbation of R_B_C, 3 [rad]
-  static constexpr int kGyro = 9;        // E of readings (I + E) w, by columns, 9
-  static constexpr int kSize = 18;
+  static constexpr int kPrincipal = 6;   // shift of rays (x, y), 2
+  static constexpr int kExtrinsics = 8;  // right perturbation of R_B_C, 3 [rad]
+  static constexpr int kGyro = 11;       // E of readings (I + E) w, by columns, 9
+  static constexpr int kSize = 20;
 
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;

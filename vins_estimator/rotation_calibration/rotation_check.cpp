@@ -27,7 +27,7 @@ constexpr double kLeastExtrinsicsError = 0.02;  // [rad]; smaller errors are usu
 constexpr double kSigmas = 3;  // by which the least error that matters exceeds usual ones
 constexpr char kBy[] = ", by the rotations of camera and gyro";
 
-std::string Describe(const RotationFit& fit) {
+std::string Describe(const RotationFit& fit, double focal_length) {
   switch (fit.cause) {
     case Cause::kTimeOffset:
       return Format("td is wrong by %+.0f ms%s: add this to td, or estimate_td: 1",
@@ -42,6 +42,12 @@ std::string Describe(const RotationFit& fit) {
           "the distortion parameters are wrong by about %+.0f %% at the edge of the image%s: "
           "calibrate the camera",
           100 * fit.amount, kBy);
+    case Cause::kPrincipalPoint:
+      return Format(
+          "the principal point is wrong by about %.0f px%s: calibrate the camera at this "
+          "resolution and crop, or estimate_intrinsics: 1 with a principal_point_deviation as "
+          "large",
+          fit.amount * focal_length, kBy);
     case Cause::kExtrinsics:
       return Format("extrinsicRotation is wrong by %.1f deg%s: estimate_extrinsic: 1 refines it",
                     ToDegrees(fit.amount), kBy);
@@ -84,8 +90,8 @@ std::string DescribeGyro(const std::string& topic, const std::string& error) {
 RotationCheck::RotationCheck(const SensorConfig& sensor, int camera, double point_noise_px)
     : sensor_(sensor),
       camera_(camera),
-      noise_(point_noise_px /
-             CameraModel::Create(sensor.cameras[camera].parameters)->FocalLength()),
+      focal_length_(CameraModel::Create(sensor.cameras[camera].parameters)->FocalLength()),
+      noise_(point_noise_px / focal_length_),
       lag_(sensor.cameras[camera].T_B_C.rotation) {}
 
 void RotationCheck::Add(const FrameMeasurement& measurement, bool in_doubt) {
@@ -171,7 +177,7 @@ void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
   mounting_.reset();
   finding_ = {};
   if (!IsRefined(fit)) {
-    const std::string text = Describe(fit);
+    const std::string text = Describe(fit, focal_length_);
     const bool is_of_further = camera_ > 0 && !text.empty();
     finding_ = {is_of_further ? Format("camera %d: ", camera_) + text : text,
                 kSigmas * std::abs(fit.amount) / LeastAmount(fit.cause)};
@@ -190,6 +196,9 @@ bool RotationCheck::IsRefined(const RotationFit& fit) const {
     case Cause::kDistortion:
       return sensor_.estimate_intrinsics &&
              std::abs(fit.amount) < kSigmas * sensor_.intrinsics_deviation.distortion;
+    case Cause::kPrincipalPoint:
+      return sensor_.estimate_intrinsics &&
+             fit.amount * focal_length_ < kSigmas * sensor_.intrinsics_deviation.principal_point;
     case Cause::kExtrinsics:
       return sensor_.estimate_extrinsic == SensorConfig::ExtrinsicMode::kRefine;
     default:

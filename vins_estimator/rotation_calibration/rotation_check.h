@@ -52,7 +52,8 @@ class RotationCheck {
 
   const SensorConfig sensor_;
   const int camera_;
-  const double noise_;  // of a normalized coordinate
+  const double focal_length_;  // [px]
+  const double noise_;         // of a normalized coordinate
   std::deque<FrameMeasurement> frames_;
   std::vector<RotationPair> pairs_;  // oldest first
   StampLag lag_;

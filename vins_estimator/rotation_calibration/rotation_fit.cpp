@@ -65,6 +65,7 @@ std::vector<Model> Models() {
   return {{Cause::kTimeOffset, Columns(Error::kDelay, 1)},
           {Cause::kFocalLength, Columns(Error::kFocal, 1)},
           {Cause::kDistortion, Columns(Error::kDistortion, 1)},
+          {Cause::kPrincipalPoint, Columns(Error::kPrincipal, 2)},
           {Cause::kExtrinsics, Columns(Error::kExtrinsics, 3)},
           {Cause::kGyro, gyro},
           {Cause::kGyro, scales},
@@ -152,6 +153,8 @@ class Fitter {
         return x[Error::kFocal];
       case Cause::kDistortion:
         return x[Error::kDistortion] * LargestSquaredRadius();
+      case Cause::kPrincipalPoint:
+        return x.segment<2>(Error::kPrincipal).norm();
       case Cause::kExtrinsics:
         return x.segment<3>(Error::kExtrinsics).norm();
       default:

@@ -11,11 +11,20 @@ namespace plm_vins {
 // The error of the calibration that explains best why the motion of points in the image does not
 // agree with the rotation of the gyroscope.
 struct RotationFit {
-  enum class Cause { kUnknown, kNone, kTimeOffset, kFocalLength, kDistortion, kExtrinsics, kGyro };
+  enum class Cause {
+    kUnknown,
+    kNone,
+    kTimeOffset,
+    kFocalLength,
+    kDistortion,
+    kPrincipalPoint,
+    kExtrinsics,
+    kGyro
+  };
   Cause cause = Cause::kUnknown;
   // Correction of td [s], relative error of the configured focal length, relative error of the rays
-  // at the edge of the image, error of the extrinsics [rad], or largest relative error of the
-  // gyroscope's scale and axes.
+  // at the edge of the image, error of the principal point in focal lengths, error of the
+  // extrinsics [rad], or largest relative error of the gyroscope's scale and axes.
   double amount = 0;
 };
 

@@ -89,6 +89,17 @@ TEST(RotationCheck, NamesTheFocalLengthOfAnotherResolution) {
   }
 }
 
+// It is shifted to the right.
+TEST(RotationCheck, NamesAWrongPrincipalPoint) {
+  SimulatedFlight flight = Fly(2, simulator::Motion::kFast);
+  for (FrameMeasurement& frame : flight.frames) {
+    for (PointObservation& point : frame.points.points) point.xy.x() -= 0.05;
+  }
+  const RotationCheck check = CheckOf(flight);
+  ASSERT_THAT(check.finding(), StartsWith("the principal point is wrong by about "));
+  EXPECT_NEAR(check.error(), 0.05, 0.02);
+}
+
 TEST(RotationCheck, NamesTheInverse) {
   SimulatedFlight flight = Fly(3);
   Eigen::Quaterniond& R_B_C = flight.sensor.cameras[0].T_B_C.rotation;

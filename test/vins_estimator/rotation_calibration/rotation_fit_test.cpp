@@ -49,6 +49,14 @@ TEST(RotationFit, FindsASingleError) {
   }
 }
 
+TEST(RotationFit, FindsThePrincipalPoint) {
+  Error::Vector x = Error::Vector::Zero();
+  x.segment<2>(Error::kPrincipal) << -0.03, 0.04;
+  const RotationFit fit = Explain(x);
+  EXPECT_EQ(fit.cause, Cause::kPrincipalPoint);
+  EXPECT_NEAR(fit.amount, 0.05, 0.005);
+}
+
 TEST(RotationFit, FindsTheFocalLengthOfAnotherResolution) {
   for (const double focal : {-0.5, 0.4, 1.0}) {
     const RotationFit fit = Explain(One(Error::kFocal, focal));

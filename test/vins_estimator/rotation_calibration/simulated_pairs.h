@@ -28,7 +28,7 @@ inline Eigen::Vector2d Configured(const Eigen::Vector2d& xy, const CalibrationEr
   for (int k = 0; k < 50; ++k) {
     const double factor = 1 + x[CalibrationError::kFocal] +
                           x[CalibrationError::kDistortion] * configured.squaredNorm();
-    configured = xy / factor;
+    configured = (xy - x.segment<2>(CalibrationError::kPrincipal)) / factor;
   }
   return configured;
 }

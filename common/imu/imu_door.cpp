@@ -81,6 +81,7 @@ void ImuDoor::Take(const ImuSample& sample, AdmittedImu* admitted) {
   for (const ImuSample& decided : gate_.Add(sample)) admitted->samples.push_back(decided);
   statistics_.imu_replaced = gate_.replaced();
   statistics_.imu_saturated = gate_.saturated();
+  statistics_.clipping = gate_.Clipping();
 }
 
 void ImuDoor::Clear() {

@@ -20,6 +20,7 @@ struct ImuStatistics {
   int64_t imu_implausible = 0;   // outside any sensor's range, all zero, or invalid timestamp
   int64_t imu_replaced = 0;      // outliers among their neighbors (ImuGate)
   int64_t imu_saturated = 0;     // at the limit of the sensor's range
+  std::string clipping;          // that limit and what to do, if it is below the configured range
   int64_t imu_out_of_order = 0;  // timestamp not increasing, or far ahead and unconfirmed
   int64_t imu_gaps = 0;          // intervals longer than kMaxImuInterval, integrated across
   std::string first_imu_gap;     // its length and time

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/format.h"
 #include "common/imu/imu_samples.h"
 
 namespace plm_vins {
@@ -71,10 +72,27 @@ std::vector<ImuSample> ImuGate::Add(const ImuSample& sample) {
   last_ = sample;
   for (ImuSample& next : decided) {
     const bool is_reading = suspect || next.t_ns == sample.t_ns;  // not a replacement
-    if (DoubtSaturated(sensor_.range, &next) && is_reading) ++saturated_;
+    if (is_reading) clipping_.Add(next);
+    if (DoubtSaturated(clipping_.Range(sensor_.range), &next) && is_reading) ++saturated_;
     next = Corrected(next, sensor_);
   }
   return decided;
+}
+
+std::string ImuGate::Clipping() const {
+  const ImuRange range = clipping_.Range(sensor_.range);
+  std::string text;
+  if (range.gyro < sensor_.range.gyro) {
+    text = Format("the gyro ends at %.2f rad/s: choose a larger range in its driver", range.gyro);
+  }
+  if (range.accel < sensor_.range.accel) {
+    text += (text.empty() ? "" : "; ") +
+            Format(
+                "the accelerometer ends at %.1f m/s^2: choose a larger range in its driver, or "
+                "damp vibration",
+                range.accel);
+  }
+  return text;
 }
 
 void ImuGate::Clear() {

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "common/imu/imu_clipping.h"
 #include "common/imu/imu_sensor.h"
 #include "common/measurements.h"
 
@@ -20,7 +22,7 @@ namespace plm_vins {
 // is accepted.
 //
 // A saturated reading is accepted as well, with a doubt of at least half the range, since the true
-// value may be larger.
+// value may be larger. The range is the configured one, or less if readings are clipped below it.
 //
 // Readings are judged as the sensor delivers them, and returned corrected (see ImuSensor), so
 // everything that integrates IMU samples has to take them from a gate.
@@ -39,6 +41,9 @@ class ImuGate {
 
   int64_t replaced() const { return replaced_; }
   int64_t saturated() const { return saturated_; }  // readings at the end of the range
+  // Returns at which readings the sensors end, below the configured range, and what to do; empty if
+  // they do not.
+  std::string Clipping() const;
 
  private:
   // Typical change between consecutive readings of one kind.
@@ -58,6 +63,7 @@ class ImuGate {
   ImuSample Replace(const ImuSample& suspect, const ImuSample& next) const;
 
   ImuSensor sensor_;
+  ImuClipping clipping_;
   std::optional<ImuSample> last_;    // newest accepted sample
   std::vector<ImuSample> suspects_;  // all samples after `last_`
   Leaps gyro_leaps_, accel_leaps_;

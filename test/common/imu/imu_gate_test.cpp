@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace plm_vins {
@@ -162,6 +163,29 @@ TEST(ImuGate, CorrectsAcceptedReadings) {
   for (const ImuSample& sample : decided.samples) {
     EXPECT_EQ(sample.gyro, Eigen::Vector3d(-4, 1, 3));
     EXPECT_EQ(sample.accel, Eigen::Vector3d(2, 8, 6));
+  }
+}
+
+// A gyro of 250 deg/s whose range is not configured.
+TEST(ImuGate, FindsTheRangeWhereReadingsAreClipped) {
+  constexpr double kEnd = 4.36;
+  std::vector<ImuSample> samples = Flight(2000);
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const double rate = 6 * std::sin(0.015 * static_cast<double>(i));
+    samples[i].gyro.x() = 0.001 * static_cast<double>(i);
+    samples[i].gyro.y() = std::min(std::max(rate, -kEnd), kEnd);
+  }
+  ImuGate gate{ImuSensor()};
+  std::vector<ImuSample> decided;
+  for (const ImuSample& sample : samples) {
+    for (const ImuSample& next : gate.Add(sample)) decided.push_back(next);
+  }
+  EXPECT_NE(gate.Clipping().find("the gyro ends at 4.36 rad/s"), std::string::npos);
+  EXPECT_GT(gate.saturated(), 500);
+  ASSERT_EQ(decided.size(), samples.size());
+  for (size_t i = 1000; i < decided.size(); ++i) {
+    EXPECT_EQ(decided[i].gyro_doubt > 1, std::abs(decided[i].gyro.y()) > 0.98 * kEnd) << i;
+    EXPECT_EQ(decided[i].accel_doubt, 0);
   }
 }
 

@@ -41,6 +41,7 @@ DropCounts ToDropCounts(const ImageCounts& counts) {
     add(other.unusable);
   }
   add(counts.flat);
+  add(counts.bayer);
   add(counts.without_depth.count());
   add(counts.depth_unusable);
   return drops;
@@ -94,6 +95,8 @@ bool ImageQueue::AcceptFormat(const ImageSample& image) {
     CheckImageFormat(image.gray, sensor_.cameras[0].parameters);
     const std::string flat = DescribeIfFlat(image.gray);
     if (!flat.empty()) counts_.flat.Add(flat);
+    const std::string bayer = DescribeIfBayer(image.gray);
+    if (!bayer.empty()) counts_.bayer.Add(bayer);
     return true;
   } catch (const std::invalid_argument& error) {
     if (counts_.wrong_format++ == 0) counts_.wrong_format_detail = error.what();

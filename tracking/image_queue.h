@@ -53,6 +53,7 @@ struct ImageCounts {
   int64_t too_late = 0;      // dropped after waiting for too long; not in ToDropCounts()
   std::string wrong_format_detail;
   DropCount flat{"images_without_contrast", 0, ""};  // tracked nevertheless
+  DropCount bayer{"images_raw_bayer", 0, ""};        // likewise
   std::vector<OtherImageCounts> others;              // of cameras 1, 2, ...
   MissingImages without_depth{"images_without_depth"};
   DropCount depth_unusable{"depth_images_wrong_format", 0, ""};

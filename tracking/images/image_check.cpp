@@ -2,6 +2,8 @@
 #include "tracking/images/image_check.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -36,6 +38,24 @@ std::string DescribeIfFlat(const cv::Mat& gray) {
       "all values are from %d to %d of 255; check exposure, lens cap and encoding: "
       "mono16 with 10 or 12 bits, or YUYV named yuv422?",
       least, largest);
+}
+
+std::string DescribeIfBayer(const cv::Mat& gray) {
+  constexpr int kStride = 16;    // of the sampled rows [px]
+  constexpr int64_t kRatio = 2;  // at most 1 without a pattern, whatever the noise
+  int64_t next = 0, second_next = 0, below = 0, second_below = 0;
+  for (int row = 0; row + 2 < gray.rows; row += kStride) {
+    const uint8_t *pixels = gray.ptr(row), *first = gray.ptr(row + 1), *second = gray.ptr(row + 2);
+    for (int col = 0; col + 2 < gray.cols; ++col) {
+      next += std::abs(pixels[col] - pixels[col + 1]);
+      second_next += std::abs(pixels[col] - pixels[col + 2]);
+      below += std::abs(pixels[col] - first[col]);
+      second_below += std::abs(pixels[col] - second[col]);
+    }
+  }
+  if (next <= kRatio * second_next || below <= kRatio * second_below) return "";
+  return "neighboring pixels alternate as in a raw Bayer image; its encoding must say so "
+         "(bayer_rggb8, ...), or the driver must send mono8 or bgr8";
 }
 
 bool AreSame(const cv::Mat& a, const cv::Mat& b) {

@@ -20,6 +20,11 @@ void CheckImage(const ImageSample& image, const CameraParameters& camera,
 // the same value everywhere; otherwise an empty string.
 std::string DescribeIfFlat(const cv::Mat& gray);
 
+// Returns what to check if the image, CV_8UC1, shows the pattern of a raw Bayer image: neighboring
+// pixels, of other colors, differ by more than pixels two apart, which are of the same one.
+// Otherwise returns an empty string.
+std::string DescribeIfBayer(const cv::Mat& gray);
+
 // Returns whether both images, CV_8UC1, have the same size and pixels.
 bool AreSame(const cv::Mat& a, const cv::Mat& b);
 

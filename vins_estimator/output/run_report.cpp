@@ -33,7 +33,9 @@ std::string Kind(const std::string& reason) {
 void RunReport::Add(const EstimatorOutput& output) {
   const double interval = Elapse(output.t_ns);
   if (interval <= kLongestInterval && !output.has_pose) {
-    without_pose_[Kind(output.reason)] += interval;
+    const std::string kind = Kind(output.reason);
+    without_pose_[kind] += interval;
+    last_reason_[kind] = output.reason;
   }
   if (output.restarted) restart_reason_ = output.reason;
   if (!output.has_pose || (!worlds_.empty() && !restart_reason_)) return;
@@ -93,7 +95,9 @@ std::string RunReport::WhyOftenWithoutPose() const {
   // Each start begins by collecting images, so any other reason is the cause.
   const auto cause = std::find_if(reasons.begin(), reasons.end(),
                                   [](const auto& reason) { return reason != kCollecting; });
-  return cause == reasons.end() ? kCollecting : *cause;
+  if (cause == reasons.end()) return kCollecting;
+  const auto last = last_reason_.find(*cause);
+  return last == last_reason_.end() ? *cause : last->second;
 }
 
 std::vector<std::string> RunReport::LongestFirst() const {

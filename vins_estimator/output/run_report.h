@@ -28,8 +28,8 @@ class RunReport {
   // Returns why the newest world frame replaced another; empty if there was only one.
   std::string LastRestart() const { return worlds_.size() > 1 ? worlds_.back().reason : ""; }
 
-  // Returns the most frequent reason other than collecting images, if there is another, while at
-  // least half of the time has no pose; otherwise an empty string.
+  // Returns the most frequent reason other than collecting images, if there is another, as it was
+  // last given, while at least half of the time has no pose; otherwise an empty string.
   std::string WhyOftenWithoutPose() const;
 
  private:
@@ -48,8 +48,9 @@ class RunReport {
   std::vector<World> worlds_;
   std::optional<std::string> restart_reason_;  // reason for the next world
   std::optional<int64_t> first_ns_, newest_ns_;
-  double elapsed_ = 0;                          // since the first output [s]
-  std::map<std::string, double> without_pose_;  // [s], by reason
+  double elapsed_ = 0;                              // since the first output [s]
+  std::map<std::string, double> without_pose_;      // [s], by reason without its figures
+  std::map<std::string, std::string> last_reason_;  // with figures and what to do, likewise
 };
 
 }  // namespace plm_vins

@@ -85,14 +85,14 @@ TEST_F(RunReportTest, SaysWhyThereIsOftenNoPose) {
   Until(3, Pose());
   EXPECT_THAT(report_.WhyOftenWithoutPose(), IsEmpty());
   Until(6, Without("the estimated scale is negative: check the signs"));
-  EXPECT_EQ(report_.WhyOftenWithoutPose(), "the estimated scale is negative");
+  EXPECT_EQ(report_.WhyOftenWithoutPose(), "the estimated scale is negative: check the signs");
 }
 
 TEST_F(RunReportTest, CollectingImagesIsACauseOnlyWithoutAnother) {
   Until(2, Without("collecting images: 0.1 s of 0.7 s"));
   EXPECT_EQ(report_.WhyOftenWithoutPose(), "collecting images");
   Until(3, Without("implausible accelerometer bias: 3 m/s^2"));
-  EXPECT_EQ(report_.WhyOftenWithoutPose(), "implausible accelerometer bias");
+  EXPECT_EQ(report_.WhyOftenWithoutPose(), "implausible accelerometer bias: 3 m/s^2");
 }
 
 TEST_F(RunReportTest, WithoutAnyPoseHasNoWorld) {

@@ -15,11 +15,14 @@ constexpr double kFarTooNoisy = 8;  // vibration on vehicles reaches five
 
 constexpr char kChecks[] =
     "; check, the most likely first: extrinsicRotation (axes, or inverted), td, focal length and "
-    "distortion, scale and axes of the IMU, moving objects, parts of the image that never move";
+    "distortion, scale and axes of the IMU, moving objects, parts of the image that never move, "
+    "electronic image stabilization (switch it off)";
 constexpr char kChecksOfTranslation[] =
     "; camera and gyro agree about rotations, so extrinsicRotation, td and the focal length are "
-    "right; check, the most likely first: scale and axes of the accelerometer (acc_correction), "
-    "moving objects, extrinsicTranslation, parts of the image that never move";
+    "right; check, the most likely first: scale, axes and signs of the accelerometer "
+    "(acc_correction), its delay after the gyro, moving objects, extrinsicTranslation, parts of "
+    "the "
+    "image that never move, electronic image stabilization (switch it off)";
 
 void Add(const std::string& fault, std::string* text) {
   if (!text->empty()) *text += "; ";

@@ -27,7 +27,7 @@ ContradictionEvidence Evidence() {
 TEST(ContradictionReport, ListsChecksWithoutAKnownCause) {
   EXPECT_THAT(DescribeContradiction(Evidence()),
               AllOf(ContainsRegex("noise is raised by a factor of 5; check.*extrinsicRotation.*td.*"
-                                  "focal length.*IMU.*image"),
+                                  "focal length.*IMU.*image stabilization"),
                     Not(HasSubstr("acc_n")), Not(HasSubstr("gyr_n"))));
 }
 
@@ -35,7 +35,8 @@ TEST(ContradictionReport, ListsOnlyWhatTheRotationsLeaveOpen) {
   ContradictionEvidence evidence = Evidence();
   evidence.rotations = ContradictionEvidence::Rotations::kAgree;
   EXPECT_THAT(DescribeContradiction(evidence),
-              ContainsRegex("agree about rotations.*; check.*accelerometer.*moving objects"));
+              ContainsRegex("agree about rotations.*; check.*accelerometer.*delay.*moving objects.*"
+                            "image stabilization"));
   evidence.rotations = ContradictionEvidence::Rotations::kExplained;
   EXPECT_THAT(DescribeContradiction(evidence), Not(HasSubstr("check")));
 }

@@ -94,7 +94,7 @@ SimulatedFlight WithBlindFront(SimulatedFlight flight) {
 
 template <typename Fly>
 double MeanRigError(const Fly& fly) {
-  constexpr int kFlights = 3;
+  constexpr int kFlights = 8;
   double sum = 0;
   for (uint64_t seed = 1; seed <= kFlights; ++seed) {
     sum += testing::AbsoluteError(testing::Estimate(fly(seed))) / kFlights;

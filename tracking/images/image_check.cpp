@@ -41,7 +41,7 @@ std::string DescribeIfFlat(const cv::Mat& gray) {
 }
 
 std::string DescribeIfBayer(const cv::Mat& gray) {
-  constexpr int kStride = 16;    // of the sampled rows [px]
+  constexpr int kStride = 64;    // of the sampled rows [px]
   constexpr int64_t kRatio = 2;  // at most 1 without a pattern, whatever the noise
   int64_t next = 0, second_next = 0, below = 0, second_below = 0;
   for (int row = 0; row + 2 < gray.rows; row += kStride) {

@@ -20,6 +20,9 @@ constexpr size_t kMinPairs = 20, kMostPairs = 60;
 constexpr double kLeastTurn = 0.03;     // of a pair [rad]
 constexpr double kAgreement = 1.4;      // largest mean cost of a point that fits
 constexpr double kMinExplained = 0.04;  // share of the cost
+// The criterion of a cause must be less by this than that without any, which is very strong evidence
+// (Kass and Raftery, Bayes factors, 1995). Few points and moving objects give less.
+constexpr double kLeastEvidence = 10;
 // Points per independent one: pairs of 0.3 s may begin every 0.1 s, and errors of a track last.
 constexpr double kOverlap = 4;
 constexpr int kIterations = 6;
@@ -193,7 +196,7 @@ RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
   const double most = kAgreement * points;
   const RotationFit none{without.equations.cost < most ? Cause::kNone : Cause::kUnknown};
   RotationFit best = none;
-  double best_criterion = count * std::log(without.equations.cost);
+  double best_criterion = count * std::log(without.equations.cost) - kLeastEvidence;
   for (const Model& model : Models()) {
     const double decrease = Fitter::StepFrom(without.equations, model.errors).decrease;
     // A step promises little where errors are so large that they count as outliers.

@@ -152,7 +152,7 @@ SimulatedFlight FlyWithWrongGyro() {
 TEST(RotationCheck, NamesAGyroWithWrongScales) {
   SimulatedFlight flight = FlyWithWrongGyro();
   EXPECT_THAT(Check(flight), StartsWith("scale or axes of the gyro are wrong by up to "));
-  flight.frames.resize(static_cast<size_t>(5.5 / 0.05));
+  flight.frames.resize(static_cast<size_t>(10 / 0.05));
   EXPECT_THAT(Check(flight), StartsWith("scale or axes of the gyro are wrong by up to "));
 }
 

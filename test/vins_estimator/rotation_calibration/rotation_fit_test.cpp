@@ -91,6 +91,18 @@ TEST(RotationFit, FindsOneScaleOfTheGyro) {
   EXPECT_NEAR(fit.amount, 0.05, 0.005);
 }
 
+// Few points may fit an error by chance.
+TEST(RotationFit, NeedsStrongEvidence) {
+  Error::Vector x = Error::Vector::Zero();
+  x[Error::kGyro] = x[Error::kGyro + 4] = x[Error::kGyro + 8] = 0.025;
+  testing::PairOptions options;
+  options.turn = 0.03;
+  EXPECT_EQ(Explain(x, options).cause, Cause::kGyro);
+  options.count = 30;
+  options.points = 8;
+  EXPECT_EQ(Explain(x, options).cause, Cause::kNone);
+}
+
 TEST(RotationFit, IsUnknownWithFewOrSmallRotations) {
   testing::PairOptions few, small;
   few.count = 15;

@@ -68,6 +68,7 @@ inline std::vector<RotationPair> SimulatePairs(const CalibrationError::Vector& x
                                                const PairOptions& options = {}) {
   simulator::Random random(3);
   std::vector<RotationPair> pairs;
+  pairs.reserve(options.count);
   for (int i = 0; i < options.count; ++i) pairs.push_back(SimulatePair(x, options, &random));
   return pairs;
 }

@@ -20,8 +20,8 @@ constexpr size_t kMinPairs = 20, kMostPairs = 60;
 constexpr double kLeastTurn = 0.03;     // of a pair [rad]
 constexpr double kAgreement = 1.4;      // largest mean cost of a point that fits
 constexpr double kMinExplained = 0.04;  // share of the cost
-// The criterion of a cause must be less by this than that without any, which is very strong evidence
-// (Kass and Raftery, Bayes factors, 1995). Few points and moving objects give less.
+// By this the criterion of a cause must be less than that without any: very strong evidence (Kass
+// and Raftery, Bayes factors, 1995). Few points and moving objects give less.
 constexpr double kLeastEvidence = 10;
 // Points per independent one: pairs of 0.3 s may begin every 0.1 s, and errors of a track last.
 constexpr double kOverlap = 4;

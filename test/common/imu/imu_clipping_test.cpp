@@ -35,16 +35,22 @@ ImuRange RangeOf(double vibration, const std::function<void(int, ImuSample*)>& c
   return clipping.Range(kConfigured);
 }
 
-double Clipped(double reading, double end) { return std::min(std::max(reading, -end), end); }
+Eigen::Vector3d Clipped(const Eigen::Vector3d& reading, double end) {
+  return reading.cwiseMin(end).cwiseMax(-end);
+}
 
 void Clip(ImuSample* sample) {
-  for (double& reading : sample->gyro) reading = Clipped(reading, k250);
-  for (double& reading : sample->accel) reading = Clipped(reading, kTwoG);
+  sample->gyro = Clipped(sample->gyro, k250);
+  sample->accel = Clipped(sample->accel, kTwoG);
+}
+
+Eigen::Vector3d Rounded(const Eigen::Vector3d& reading, double step) {
+  return step * (reading / step).array().round().matrix();
 }
 
 void Round(double gyro_step, double accel_step, ImuSample* sample) {
-  for (double& reading : sample->gyro) reading = gyro_step * std::round(reading / gyro_step);
-  for (double& reading : sample->accel) reading = accel_step * std::round(reading / accel_step);
+  sample->gyro = Rounded(sample->gyro, gyro_step);
+  sample->accel = Rounded(sample->accel, accel_step);
 }
 
 void ExpectConfigured(const ImuRange& range) {

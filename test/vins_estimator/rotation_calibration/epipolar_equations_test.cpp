@@ -41,7 +41,7 @@ TEST(EpipolarEquations, CostIsQuadraticAboutTheTruth) {
     if (k < CalibrationError::kSize) {
       direction[k] = 1;
     } else {
-      for (double& value : direction) value = random.Normal();
+      for (int i = 0; i < direction.size(); ++i) direction[i] = random.Normal();
     }
     const double curvature = direction.dot(H * direction);
     const Vector step = direction * std::sqrt(0.02 / curvature);

@@ -58,7 +58,10 @@ void ImuGate::Leaps::Learn(double leap) {
 }
 
 ImuGate::ImuGate(const ImuSensor& sensor)
-    : sensor_(sensor), gyro_leaps_{kAlwaysAllowedGyro}, accel_leaps_{kAlwaysAllowedAccel} {}
+    : sensor_(sensor),
+      range_(sensor.range),
+      gyro_leaps_{kAlwaysAllowedGyro},
+      accel_leaps_{kAlwaysAllowedAccel} {}
 
 std::vector<ImuSample> ImuGate::Add(const ImuSample& sample) {
   const bool suspect = IsSuspect(sample);
@@ -73,26 +76,25 @@ std::vector<ImuSample> ImuGate::Add(const ImuSample& sample) {
   for (ImuSample& next : decided) {
     const bool is_reading = suspect || next.t_ns == sample.t_ns;  // not a replacement
     if (is_reading) clipping_.Add(next);
-    if (DoubtSaturated(clipping_.Range(sensor_.range), &next) && is_reading) ++saturated_;
+    range_ = clipping_.Range(sensor_.range);
+    if (DoubtSaturated(range_, &next) && is_reading) ++saturated_;
     next = Corrected(next, sensor_);
   }
   return decided;
 }
 
 std::string ImuGate::Clipping() const {
-  const ImuRange range = clipping_.Range(sensor_.range);
-  std::string text;
-  if (range.gyro < sensor_.range.gyro) {
-    text = Format("the gyro ends at %.2f rad/s: choose a larger range in its driver", range.gyro);
+  std::string gyro, accel;
+  if (range_.gyro < sensor_.range.gyro) {
+    gyro = Format("the gyro ends at %.2f rad/s: choose a larger range in its driver", range_.gyro);
   }
-  if (range.accel < sensor_.range.accel) {
-    text += (text.empty() ? "" : "; ") +
-            Format(
-                "the accelerometer ends at %.1f m/s^2: choose a larger range in its driver, or "
-                "damp vibration",
-                range.accel);
+  if (range_.accel < sensor_.range.accel) {
+    accel = Format(
+        "the accelerometer ends at %.1f m/s^2: choose a larger range in its driver, or damp "
+        "vibration",
+        range_.accel);
   }
-  return text;
+  return JoinTexts({gyro, accel}, "; ");
 }
 
 void ImuGate::Clear() {

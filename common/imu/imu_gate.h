@@ -64,6 +64,7 @@ class ImuGate {
 
   ImuSensor sensor_;
   ImuClipping clipping_;
+  ImuRange range_;                   // of the readings so far
   std::optional<ImuSample> last_;    // newest accepted sample
   std::vector<ImuSample> suspects_;  // all samples after `last_`
   Leaps gyro_leaps_, accel_leaps_;

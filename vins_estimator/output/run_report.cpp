@@ -33,9 +33,9 @@ std::string Kind(const std::string& reason) {
 void RunReport::Add(const EstimatorOutput& output) {
   const double interval = Elapse(output.t_ns);
   if (interval <= kLongestInterval && !output.has_pose) {
-    const std::string kind = Kind(output.reason);
-    without_pose_[kind] += interval;
-    last_reason_[kind] = output.reason;
+    WithoutPose& without = without_pose_[Kind(output.reason)];
+    without.time += interval;
+    without.last_reason = output.reason;
   }
   if (output.restarted) restart_reason_ = output.reason;
   if (!output.has_pose || (!worlds_.empty() && !restart_reason_)) return;
@@ -52,7 +52,11 @@ double RunReport::Elapse(int64_t t_ns) {
   const double interval = std::max(0.0, ToSeconds(t_ns - *newest_ns_));  // clocks may be set back
   newest_ns_ = t_ns;
   elapsed_ += interval;
-  if (interval > kLongestInterval) without_pose_[kNoImage] += interval;
+  if (interval > kLongestInterval) {
+    WithoutPose& without = without_pose_[kNoImage];
+    without.time += interval;
+    if (without.last_reason.empty()) without.last_reason = kNoImage;
+  }
   return interval;
 }
 
@@ -78,35 +82,34 @@ std::string RunReport::DescribeWorlds(double lead) const {
 
 std::string RunReport::DescribeTimeWithoutPose(double lead) const {
   double without = lead;
-  for (const auto& [reason, time] : without_pose_) without += time;
+  for (const auto& [reason, spent] : without_pose_) without += spent.time;
   std::string text = Format("no pose for %.1f of %.1f s", without, lead + elapsed_);
   const std::vector<std::string> reasons = LongestFirst();
   for (size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i) {
-    text += (i == 0 ? ": " : ", ") + reasons[i] + Format(" (%.1f s)", without_pose_.at(reasons[i]));
+    text += (i == 0 ? ": " : ", ") + reasons[i] +
+            Format(" (%.1f s)", without_pose_.at(reasons[i]).time);
   }
   return text;
 }
 
 std::string RunReport::WhyOftenWithoutPose() const {
   double without = 0;
-  for (const auto& [reason, time] : without_pose_) without += time;
+  for (const auto& [reason, spent] : without_pose_) without += spent.time;
   if (2 * without < elapsed_ || without == 0) return "";
   const std::vector<std::string> reasons = LongestFirst();
   // Each start begins by collecting images, so any other reason is the cause.
   const auto cause = std::find_if(reasons.begin(), reasons.end(),
                                   [](const auto& reason) { return reason != kCollecting; });
-  if (cause == reasons.end()) return kCollecting;
-  const auto last = last_reason_.find(*cause);
-  return last == last_reason_.end() ? *cause : last->second;
+  return cause == reasons.end() ? kCollecting : without_pose_.at(*cause).last_reason;
 }
 
 std::vector<std::string> RunReport::LongestFirst() const {
   std::vector<std::string> reasons;
-  for (const auto& [reason, time] : without_pose_) {
-    if (time > 0) reasons.push_back(reason);
+  for (const auto& [reason, spent] : without_pose_) {
+    if (spent.time > 0) reasons.push_back(reason);
   }
   std::stable_sort(reasons.begin(), reasons.end(), [&](const auto& a, const auto& b) {
-    return without_pose_.at(a) > without_pose_.at(b);
+    return without_pose_.at(a).time > without_pose_.at(b).time;
   });
   return reasons;
 }

@@ -33,6 +33,10 @@ class RunReport {
   std::string WhyOftenWithoutPose() const;
 
  private:
+  struct WithoutPose {
+    double time = 0;          // [s]
+    std::string last_reason;  // with figures and what to do
+  };
   struct World {
     double begin = 0;    // first pose, since the first output [s]
     std::string reason;  // why the previous one ended
@@ -48,9 +52,8 @@ class RunReport {
   std::vector<World> worlds_;
   std::optional<std::string> restart_reason_;  // reason for the next world
   std::optional<int64_t> first_ns_, newest_ns_;
-  double elapsed_ = 0;                              // since the first output [s]
-  std::map<std::string, double> without_pose_;      // [s], by reason without its figures
-  std::map<std::string, std::string> last_reason_;  // with figures and what to do, likewise
+  double elapsed_ = 0;                               // since the first output [s]
+  std::map<std::string, WithoutPose> without_pose_;  // by reason without its figures
 };
 
 }  // namespace plm_vins

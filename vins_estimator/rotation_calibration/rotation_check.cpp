@@ -187,18 +187,19 @@ void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
 
 // Returns whether the estimator refines what is wrong.
 bool RotationCheck::IsRefined(const RotationFit& fit) const {
+  const IntrinsicsDeviation& prior = sensor_.intrinsics_deviation;
+  const auto is_within = [this](double error, double deviation) {
+    return sensor_.estimate_intrinsics && std::abs(error) < kSigmas * deviation;
+  };
   switch (fit.cause) {
     case Cause::kTimeOffset:
       return sensor_.estimate_td;
     case Cause::kFocalLength:
-      return sensor_.estimate_intrinsics &&
-             std::abs(fit.amount) < kSigmas * sensor_.intrinsics_deviation.focal_length;
+      return is_within(fit.amount, prior.focal_length);
     case Cause::kDistortion:
-      return sensor_.estimate_intrinsics &&
-             std::abs(fit.amount) < kSigmas * sensor_.intrinsics_deviation.distortion;
+      return is_within(fit.amount, prior.distortion);
     case Cause::kPrincipalPoint:
-      return sensor_.estimate_intrinsics &&
-             fit.amount * focal_length_ < kSigmas * sensor_.intrinsics_deviation.principal_point;
+      return is_within(fit.amount * focal_length_, prior.principal_point);
     case Cause::kExtrinsics:
       return sensor_.estimate_extrinsic == SensorConfig::ExtrinsicMode::kRefine;
     default:

@@ -130,6 +130,7 @@ DropCounts EstimationStage::Drops() const {
       {"imu_implausible", statistics.imu_implausible, ""},
       {"imu_replaced", statistics.imu_replaced, ""},
       {"imu_saturated", statistics.imu_saturated, statistics.clipping},
+      {"imu_stuck", statistics.imu_stuck, statistics.first_imu_stuck},
       {"imu_out_of_order", statistics.imu_out_of_order, ""},
       {"imu_gaps", statistics.imu_gaps, statistics.first_imu_gap},
       {"imu_dropped_full", statistics.imu_dropped_full, ""},

@@ -29,13 +29,14 @@ constexpr double kSameRange = 0.9;
 }  // namespace
 
 void ImuClipping::Add(const ImuSample& sample) {
-  if (newest_.gyro != sample.gyro) {
-    for (int i = 0; i < 3; ++i) gyro_[i].Add(sample.gyro[i]);
-  }
-  if (newest_.accel != sample.accel) {
-    for (int i = 0; i < 3; ++i) accel_[i].Add(sample.accel[i]);
-  }
+  const ImuSample last = newest_.value_or(sample);
   newest_ = sample;
+  if (last.gyro != sample.gyro) {
+    for (int i = 0; i < 3; ++i) gyro_[i].Add(last.gyro[i], sample.gyro[i]);
+  }
+  if (last.accel != sample.accel) {
+    for (int i = 0; i < 3; ++i) accel_[i].Add(last.accel[i], sample.accel[i]);
+  }
 }
 
 ImuRange ImuClipping::Range(const ImuRange& configured) const {
@@ -66,9 +67,8 @@ bool ImuClipping::End::IsClipped() const {
   return at_largest >= kMinClipped && at_largest > kMinRatio * near_it;
 }
 
-void ImuClipping::Axis::Add(double reading) {
-  if (last && *last != reading) least_change = std::min(least_change, std::abs(reading - *last));
-  last = reading;
+void ImuClipping::Axis::Add(double last, double reading) {
+  if (last != reading) least_change = std::min(least_change, std::abs(reading - last));
   ends[reading > 0 ? 0 : 1].Add(std::abs(reading));
 }
 

@@ -36,10 +36,9 @@ class ImuClipping {
   // Readings of one axis.
   struct Axis {
     std::array<End, 2> ends;  // of positive and negative readings
-    std::optional<double> last;
     double least_change = std::numeric_limits<double>::infinity();  // resolution of the readings
 
-    void Add(double reading);
+    void Add(double last, double reading);
     double Largest() const;
     // Returns the reading at which the axis is clipped, or infinity.
     double Limit() const;
@@ -50,7 +49,7 @@ class ImuClipping {
   static double Limit(const Axes& axes, double least);
 
   Axes gyro_, accel_;
-  ImuSample newest_;
+  std::optional<ImuSample> newest_;
 };
 
 }  // namespace plm_vins

@@ -14,19 +14,28 @@ constexpr int64_t kMinSamples = 200;
 constexpr int64_t kMinSpan_ns = 2'000'000'000;
 constexpr double kMemory = 10;         // [s]
 constexpr double kMaxForgotten = 0.1;  // by a gap
+constexpr double kMinTested = 100;     // samples
 
 constexpr double kNormTolerance = 0.3;  // relative, of a norm near that of gravity
 constexpr double kFarBelow = 0.3;       // largest share of gravity that is far below it
+constexpr double kTurn = 0.1;           // [rad/s]; no sensor at standstill measures as much
 constexpr double kFastTurn = 4.0;  // [rad/s]; agile flights exceed it in a few samples of a hundred
 
 struct Reading {
   bool gyro = false, accel = false;  // not zero, and finite
   double rate = 0, force = 0;        // norms, if so
   double gravity = 0;
+  // Axes whose readings are those of the last sample; none if all are, as drivers repeat samples.
+  Eigen::Array3i gyro_stuck = Eigen::Array3i::Zero(), accel_stuck = Eigen::Array3i::Zero();
 };
 
 bool IsPresent(const Eigen::Vector3d& reading) {
   return reading.allFinite() && !reading.isZero(0.0);
+}
+
+Eigen::Array3i StuckAxes(const Eigen::Vector3d& last, const Eigen::Vector3d& reading) {
+  if (last == reading) return Eigen::Array3i::Zero();
+  return (last.array() == reading.array()).cast<int>();
 }
 
 bool IsNear(double value, double expected) {
@@ -36,6 +45,17 @@ bool IsNear(double value, double expected) {
 bool IsAny(const Reading&) { return true; }
 bool HasGyro(const Reading& reading) { return reading.gyro; }
 bool HasAccel(const Reading& reading) { return reading.accel; }
+bool Turns(const Reading& reading) { return reading.gyro && reading.rate > kTurn; }
+
+template <int axis>
+bool IsGyroStuck(const Reading& reading) {
+  return reading.gyro_stuck[axis];
+}
+
+template <int axis>
+bool IsAccelStuck(const Reading& reading) {
+  return reading.accel_stuck[axis];
+}
 
 // A test fails if more than a share of the samples to which it applies are wrong.
 struct Test {
@@ -44,6 +64,15 @@ struct Test {
   double share;
   const char* text;  // with the topic, and what to do
 };
+
+constexpr char kGyroStuck[] =
+    "one axis of the angular velocity on TOPIC never changes: the gyro or its driver does not "
+    "measure "
+    "it; three axes are needed";
+constexpr char kAccelStuck[] =
+    "one axis of the specific force on TOPIC never changes: the accelerometer or its driver does "
+    "not "
+    "measure it; three axes are needed";
 
 // The most serious one first. A gyroscope that is simulated without noise reads zero during
 // standstill.
@@ -73,6 +102,12 @@ constexpr Test kTests[] = {
     {HasGyro, [](const Reading& r) { return r.rate > kFastTurn; }, 0.3,
      "angular velocity exceeds 4 rad/s in many samples: is TOPIC in deg/s? Multiply it by pi/180, "
      "to rad/s"},
+    {Turns, IsGyroStuck<0>, 0.999, kGyroStuck},
+    {Turns, IsGyroStuck<1>, 0.999, kGyroStuck},
+    {Turns, IsGyroStuck<2>, 0.999, kGyroStuck},
+    {Turns, IsAccelStuck<0>, 0.999, kAccelStuck},
+    {Turns, IsAccelStuck<1>, 0.999, kAccelStuck},
+    {Turns, IsAccelStuck<2>, 0.999, kAccelStuck},
 };
 static_assert(std::size(kTests) == ImuContent::kTestCount);
 
@@ -83,8 +118,14 @@ void ImuContent::Add(const ImuSample& sample) {
   const double forgotten =
       std::clamp(ToSeconds(sample.t_ns - newest_ns_) / kMemory, 0.0, kMaxForgotten);
   newest_ns_ = std::max(newest_ns_, sample.t_ns);
-  const Reading reading{IsPresent(sample.gyro), IsPresent(sample.accel), sample.gyro.norm(),
-                        sample.accel.norm(), gravity_norm_};
+  const Reading reading{IsPresent(sample.gyro),
+                        IsPresent(sample.accel),
+                        sample.gyro.norm(),
+                        sample.accel.norm(),
+                        gravity_norm_,
+                        StuckAxes(last_.gyro, sample.gyro),
+                        StuckAxes(last_.accel, sample.accel)};
+  last_ = sample;
   for (int i = 0; i < kTestCount; ++i) {
     if (!kTests[i].applies(reading)) continue;
     AddForgetting(forgotten, 1.0, &samples_of_[i]);
@@ -95,7 +136,9 @@ void ImuContent::Add(const ImuSample& sample) {
 std::string ImuContent::Finding(const std::string& topic) const {
   if (samples_ < kMinSamples || newest_ns_ - first_ns_ < kMinSpan_ns) return "";
   for (int i = 0; i < kTestCount; ++i) {
-    if (wrong_[i] <= kTests[i].share * samples_of_[i]) continue;
+    const bool is_wrong =
+        samples_of_[i] > kMinTested && wrong_[i] > kTests[i].share * samples_of_[i];
+    if (!is_wrong) continue;
     std::string text = kTests[i].text;
     return text.replace(text.find("TOPIC"), 5, topic);
   }

@@ -2,6 +2,7 @@
 #include "common/imu/imu_door.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/format.h"
@@ -14,12 +15,25 @@ namespace {
 constexpr int64_t kMaxStep_ns = 60'000'000'000;  // no propagation bridges a longer one
 constexpr int64_t kRecent_ns = 1'000'000'000;
 
+constexpr double kGravity = 9.81;          // [m/s^2]
+constexpr double kMaxRateStanding = 0.1;   // [rad/s]
+constexpr double kMaxForceStanding = 0.5;  // beside gravity [m/s^2]
+
+bool MayStand(const ImuSample& sample) {
+  return sample.gyro.norm() < kMaxRateStanding &&
+         std::abs(sample.accel.norm() - kGravity) < kMaxForceStanding;
+}
+
+bool AreAlike(const ImuSample& a, const ImuSample& b) {
+  return a.gyro == b.gyro && a.accel == b.accel;
+}
+
 }  // namespace
 
 AdmittedImu ImuDoor::Add(const ImuSample& raw) {
   AdmittedImu admitted;
   const ImuSample sample = bursts_.Spread(raw);
-  if (!IsReading(sample)) return admitted;
+  if (!IsReading(sample) || IsStuck(sample)) return admitted;
   const bool follows = recent_.empty() || sample.t_ns > recent_.back().t_ns;
   if (!follows) {
     ++statistics_.imu_out_of_order;
@@ -50,10 +64,23 @@ bool ImuDoor::IsReading(const ImuSample& sample) {
   return false;
 }
 
+// At standstill, a sensor that is simulated without noise repeats its readings as well.
+bool ImuDoor::IsStuck(const ImuSample& sample) {
+  if (!first_alike_ || !AreAlike(*first_alike_, sample)) first_alike_ = sample;
+  const int64_t begin_ns = first_alike_->t_ns;
+  if (!IsGap(begin_ns, sample.t_ns) || MayStand(sample)) return false;
+  if (statistics_.imu_stuck++ == 0) {
+    statistics_.first_imu_stuck =
+        Format("the same reading from %.3f s on: check the connection of the IMU, and its driver",
+               ToSeconds(begin_ns));
+  }
+  return true;
+}
+
 // Compares raw samples: those that came out may differ.
 bool ImuDoor::IsRepeated(const ImuSample& sample) const {
   return std::any_of(recent_.begin(), recent_.end(), [&sample](const ImuSample& known) {
-    return known.t_ns == sample.t_ns && known.gyro == sample.gyro && known.accel == sample.accel;
+    return known.t_ns == sample.t_ns && AreAlike(known, sample);
   });
 }
 
@@ -79,15 +106,21 @@ void ImuDoor::Take(const ImuSample& sample, AdmittedImu* admitted) {
   recent_.push_back(sample);
   while (sample.t_ns - recent_.front().t_ns > kRecent_ns) recent_.pop_front();
   for (const ImuSample& decided : gate_.Add(sample)) admitted->samples.push_back(decided);
-  statistics_.imu_replaced = gate_.replaced();
-  statistics_.imu_saturated = gate_.saturated();
-  statistics_.clipping = gate_.Clipping();
+}
+
+ImuStatistics ImuDoor::statistics() const {
+  ImuStatistics result = statistics_;
+  result.imu_replaced = gate_.replaced();
+  result.imu_saturated = gate_.saturated();
+  result.clipping = gate_.Clipping();
+  return result;
 }
 
 void ImuDoor::Clear() {
   gate_.Clear();
   recent_.clear();
   jump_.Accept();
+  first_alike_.reset();
   after_gap_.reset();
 }
 

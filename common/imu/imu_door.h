@@ -21,6 +21,8 @@ struct ImuStatistics {
   int64_t imu_replaced = 0;      // outliers among their neighbors (ImuGate)
   int64_t imu_saturated = 0;     // at the limit of the sensor's range
   std::string clipping;          // that limit and what to do, if it is below the configured range
+  int64_t imu_stuck = 0;         // repeated by a sensor in motion for longer than kMaxImuInterval
+  std::string first_imu_stuck;   // its time and what to do
   int64_t imu_out_of_order = 0;  // timestamp not increasing, or far ahead and unconfirmed
   int64_t imu_gaps = 0;          // intervals longer than kMaxImuInterval, integrated across
   std::string first_imu_gap;     // its length and time
@@ -38,6 +40,9 @@ struct AdmittedImu {
 // The door through which all users get their IMU samples: it spreads bursts (ImuBursts), drops
 // unusable samples, notices that the clock was set, replaces outliers and corrects the readings
 // (ImuGate). The samples that come out increase in time.
+//
+// A reading that a sensor in motion repeats for longer than kMaxImuInterval is no reading: its
+// driver has lost the sensor. The repetitions leave a gap.
 //
 // The clock was set if timestamps go back permanently (a bag played again), or jump ahead by more
 // than a minute. Samples that are sent twice within a second do not count as such. A sample after a
@@ -58,10 +63,11 @@ class ImuDoor {
   void Clear();
 
   const ImuBursts& bursts() const { return bursts_; }
-  const ImuStatistics& statistics() const { return statistics_; }
+  ImuStatistics statistics() const;
 
  private:
   bool IsReading(const ImuSample& sample);  // counts if it is not
+  bool IsStuck(const ImuSample& sample);    // counts if it is
   bool IsRepeated(const ImuSample& sample) const;
   // Decides on the sample after a gap, now that the next timestamp is known.
   void DecideAfterGap(int64_t next_ns, AdmittedImu* admitted);
@@ -71,8 +77,9 @@ class ImuDoor {
   ImuGate gate_;
   std::deque<ImuSample> recent_;  // passed to the gate in the last second
   BackwardJumpDetector jump_;
+  std::optional<ImuSample> first_alike_;  // with the same readings as the newest sample
   std::optional<ImuSample> after_gap_;
-  ImuStatistics statistics_;
+  ImuStatistics statistics_;  // except those of the gate
 };
 
 }  // namespace plm_vins

@@ -22,7 +22,8 @@ HEAD = ("| fault | APE [m] | largest error [m] | restarts after [s] | coverage |
         + 6 * "|---" + "|")
 # Counts in summary.json that indicate a fault.
 FOUND = ("imu_doubts", "bridged_losses")
-NAMED = ("imu_implausible", "imu_replaced", "imu_saturated", "imu_gaps", "frames_repeated", *FOUND)
+NAMED = ("imu_implausible", "imu_replaced", "imu_saturated", "imu_stuck", "imu_gaps",
+         "frames_repeated", *FOUND)
 
 
 def parse_arguments(arguments):

@@ -23,8 +23,8 @@ constexpr double kRate = 200;  // [Hz]
 ImuSample InHand(int i) {
   const double t = i / kRate;
   ImuSample sample{static_cast<int64_t>(1e9 * t)};
-  sample.gyro = {0.5 * std::sin(2 * t), 0.3 * std::cos(3 * t), 0.1};
-  sample.accel = {2 * std::sin(5 * t), 2 * std::cos(4 * t), kGravity};
+  sample.gyro = {0.5 * std::sin(2 * t), 0.3 * std::cos(3 * t), 0.1 * std::cos(4 * t)};
+  sample.accel = {2 * std::sin(5 * t), 2 * std::cos(4 * t), kGravity + 0.5 * std::sin(7 * t)};
   return sample;
 }
 
@@ -84,6 +84,32 @@ TEST(ImuContent, DetectsWrongUnits) {
   }
   EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->gyro *= 180 / M_PI; }),
               HasSubstr("is /imu in deg/s?"));
+}
+
+TEST(ImuContent, DetectsAStuckAxis) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double value : {0.0, 0.02}) {
+      EXPECT_THAT(FindingOf([&](int, ImuSample* sample) { sample->gyro[axis] = value; }),
+                  HasSubstr("one axis of the angular velocity on /imu never changes"));
+    }
+    EXPECT_THAT(FindingOf([&](int, ImuSample* sample) { sample->accel[axis] = 5; }),
+                HasSubstr("one axis of the specific force on /imu never changes"));
+  }
+}
+
+// Samples of 50 Hz, sent at 200 Hz; a sensor of low resolution at standstill.
+TEST(ImuContent, AcceptsReadingsThatRepeat) {
+  EXPECT_THAT(FindingOf([](int i, ImuSample* sample) {
+                const int64_t t_ns = sample->t_ns;
+                *sample = InHand(i - i % 4);
+                sample->t_ns = t_ns;
+              }),
+              IsEmpty());
+  EXPECT_THAT(FindingOf([](int i, ImuSample* sample) {
+                sample->gyro = {i % 7 == 0 ? 0.01 : 0.0, 0.02, -0.01};
+                sample->accel = {i % 5 == 0 ? 0.1 : 0.0, 0, kGravity};
+              }),
+              IsEmpty());
 }
 
 TEST(ImuContent, DetectsRemovedGravity) {

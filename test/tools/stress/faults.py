@@ -115,6 +115,7 @@ FAULTS = {
     "gyro_spikes_1hz": Fault("40 rad/s once a second", _spikes("gyro", 40, period=1.0)),
     "accel_huge": Fault("one sample of 1e6 m/s^2", _spikes("accel", 1e6)),
     "imu_held_100ms": Fault("the IMU repeats one reading for 0.1 s", _hold(0.1)),
+    "imu_held_1s": Fault("the IMU repeats one reading for 1 s", _hold(1)),
     "imu_lost_200ms": Fault("no IMU for 0.2 s", _lose_imu(0.2)),
     "imu_saturated": Fault("readings end at 1.5 rad/s and 13 m/s^2", _clip(1.5, 13.0)),
     "imu_halved": Fault("every second IMU sample is missing", _decimate(2)),

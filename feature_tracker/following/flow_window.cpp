@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <opencv2/core/hal/intrin.hpp>
 
 namespace plm_vins {
@@ -130,6 +131,22 @@ void FlowWindow::TakeSlopes() {
     const int begin = y * columns_ + side_, end = (y + 1) * columns_;
     std::fill(slopes_x_.begin() + begin, slopes_x_.begin() + end, 0);
     std::fill(slopes_y_.begin() + begin, slopes_y_.begin() + end, 0);
+  }
+  Center(&slopes_x_);
+  Center(&slopes_y_);
+}
+
+// Makes the sum zero: then a step is that of least squares with the offset as a further unknown.
+void FlowWindow::Center(std::vector<int16_t>* slopes) const {
+  const int pixels = side_ * side_;
+  const int sum = std::accumulate(slopes->begin(), slopes->end(), 0);
+  const auto mean = static_cast<int16_t>(std::floor(static_cast<double>(sum) / pixels));
+  int above_mean = sum - mean * pixels;  // taken from as many pixels
+  for (auto row = slopes->begin(); row != slopes->end(); row += columns_) {
+    std::for_each_n(row, side_, [mean](int16_t& slope) { slope -= mean; });
+    const int count = std::min(above_mean, side_);
+    std::for_each_n(row, count, [](int16_t& slope) { --slope; });
+    above_mean -= count;
   }
 }
 

@@ -33,6 +33,7 @@ class FlowWindow {
   bool ShowsImage(const cv::Mat& image, const cv::Point2f& corner) const;
   cv::Point2f CornerOf(const cv::Point2f& center) const;
   void TakeSlopes();
+  void Center(std::vector<int16_t>* slopes) const;
   bool InvertInformation();
 
   int side_;
@@ -40,7 +41,7 @@ class FlowWindow {
   int wide_columns_;               // row length with a margin of one pixel
   std::vector<int16_t> wide_;      // samples of the window with a margin of one pixel
   std::vector<int16_t> samples_;   // samples of the other image
-  std::vector<int16_t> slopes_x_;  // zero beyond the side
+  std::vector<int16_t> slopes_x_;  // minus their mean; zero beyond the side
   std::vector<int16_t> slopes_y_;
   Eigen::Matrix2f covariance_;  // covariance of a step, for unit noise of the samples
 };

@@ -47,6 +47,16 @@ TEST_P(FlowWindowTest, StaysAtItsOrigin) {
   EXPECT_LT(cv::norm(*step), 0.002);
 }
 
+TEST_P(FlowWindowTest, IgnoresAnOffsetOfTheBrightness) {
+  const cv::Point2d shift(0.37, -0.22);
+  const cv::Mat moved = Waves(GetParam(), shift, 40), brighter = moved + 40;
+  ASSERT_TRUE(window_.Cut(Waves(GetParam(), {}, 40), kFlowCenter));
+  const auto step = window_.Step(moved, kFlowCenter);
+  const auto step_when_brighter = window_.Step(Bordered(brighter, GetParam()), kFlowCenter);
+  ASSERT_TRUE(step && step_when_brighter);
+  EXPECT_LT(cv::norm(*step - *step_when_brighter), 0.005);
+}
+
 TEST_P(FlowWindowTest, StepsToTheMotion) {
   const cv::Point2d shift(0.37, -0.22);
   ASSERT_TRUE(window_.Cut(Waves(GetParam()), kFlowCenter));
@@ -56,7 +66,9 @@ TEST_P(FlowWindowTest, StepsToTheMotion) {
   EXPECT_LT(cv::norm(cv::Point2d(*first) - shift), 0.1 * cv::norm(shift));
   cv::Point2f center = kFlowCenter;
   for (int i = 0; i < 4; ++i) center += window_.Step(moved, center).value();
-  EXPECT_LT(cv::norm(cv::Point2d(center - kFlowCenter) - shift), 0.02);
+  // In a small window, the gradient is nearly constant, and an offset looks like motion.
+  const double tolerance = GetParam() < 8 ? 0.03 : 0.02;
+  EXPECT_LT(cv::norm(cv::Point2d(center - kFlowCenter) - shift), tolerance);
 }
 
 TEST_P(FlowWindowTest, IgnoresPixelsBeyondItsSide) {

@@ -25,17 +25,12 @@ struct Reading {
   bool gyro = false, accel = false;  // not zero, and finite
   double rate = 0, force = 0;        // norms, if so
   double gravity = 0;
-  // Axes whose readings are those of the last sample; none if all are, as drivers repeat samples.
-  Eigen::Array3i gyro_stuck = Eigen::Array3i::Zero(), accel_stuck = Eigen::Array3i::Zero();
+  // Whether each axis reads the same as in the last sample.
+  Eigen::Array<bool, 3, 1> gyro_same, accel_same;
 };
 
 bool IsPresent(const Eigen::Vector3d& reading) {
   return reading.allFinite() && !reading.isZero(0.0);
-}
-
-Eigen::Array3i StuckAxes(const Eigen::Vector3d& last, const Eigen::Vector3d& reading) {
-  if (last == reading) return Eigen::Array3i::Zero();
-  return (last.array() == reading.array()).cast<int>();
 }
 
 bool IsNear(double value, double expected) {
@@ -46,15 +41,18 @@ bool IsAny(const Reading&) { return true; }
 bool HasGyro(const Reading& reading) { return reading.gyro; }
 bool HasAccel(const Reading& reading) { return reading.accel; }
 bool Turns(const Reading& reading) { return reading.gyro && reading.rate > kTurn; }
+// In motion, and not a repeated reading.
+bool HasNewGyro(const Reading& reading) { return Turns(reading) && !reading.gyro_same.all(); }
+bool HasNewAccel(const Reading& reading) { return Turns(reading) && !reading.accel_same.all(); }
 
 template <int axis>
 bool IsGyroStuck(const Reading& reading) {
-  return reading.gyro_stuck[axis];
+  return reading.gyro_same[axis];
 }
 
 template <int axis>
 bool IsAccelStuck(const Reading& reading) {
-  return reading.accel_stuck[axis];
+  return reading.accel_same[axis];
 }
 
 // A test fails if more than a share of the samples to which it applies are wrong.
@@ -67,12 +65,10 @@ struct Test {
 
 constexpr char kGyroStuck[] =
     "one axis of the angular velocity on TOPIC never changes: the gyro or its driver does not "
-    "measure "
-    "it; three axes are needed";
+    "measure it; three axes are needed";
 constexpr char kAccelStuck[] =
     "one axis of the specific force on TOPIC never changes: the accelerometer or its driver does "
-    "not "
-    "measure it; three axes are needed";
+    "not measure it; three axes are needed";
 
 // The most serious one first. A gyroscope that is simulated without noise reads zero during
 // standstill.
@@ -102,12 +98,12 @@ constexpr Test kTests[] = {
     {HasGyro, [](const Reading& r) { return r.rate > kFastTurn; }, 0.3,
      "angular velocity exceeds 4 rad/s in many samples: is TOPIC in deg/s? Multiply it by pi/180, "
      "to rad/s"},
-    {Turns, IsGyroStuck<0>, 0.999, kGyroStuck},
-    {Turns, IsGyroStuck<1>, 0.999, kGyroStuck},
-    {Turns, IsGyroStuck<2>, 0.999, kGyroStuck},
-    {Turns, IsAccelStuck<0>, 0.999, kAccelStuck},
-    {Turns, IsAccelStuck<1>, 0.999, kAccelStuck},
-    {Turns, IsAccelStuck<2>, 0.999, kAccelStuck},
+    {HasNewGyro, IsGyroStuck<0>, 0.999, kGyroStuck},
+    {HasNewGyro, IsGyroStuck<1>, 0.999, kGyroStuck},
+    {HasNewGyro, IsGyroStuck<2>, 0.999, kGyroStuck},
+    {HasNewAccel, IsAccelStuck<0>, 0.999, kAccelStuck},
+    {HasNewAccel, IsAccelStuck<1>, 0.999, kAccelStuck},
+    {HasNewAccel, IsAccelStuck<2>, 0.999, kAccelStuck},
 };
 static_assert(std::size(kTests) == ImuContent::kTestCount);
 
@@ -123,8 +119,8 @@ void ImuContent::Add(const ImuSample& sample) {
                         sample.gyro.norm(),
                         sample.accel.norm(),
                         gravity_norm_,
-                        StuckAxes(last_.gyro, sample.gyro),
-                        StuckAxes(last_.accel, sample.accel)};
+                        last_.gyro.array() == sample.gyro.array(),
+                        last_.accel.array() == sample.accel.array()};
   last_ = sample;
   for (int i = 0; i < kTestCount; ++i) {
     if (!kTests[i].applies(reading)) continue;

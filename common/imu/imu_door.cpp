@@ -15,6 +15,7 @@ namespace {
 constexpr int64_t kMaxStep_ns = 60'000'000'000;  // no propagation bridges a longer one
 constexpr int64_t kRecent_ns = 1'000'000'000;
 
+constexpr int64_t kManyChanges = 100;      // of a sensor that has noise
 constexpr double kGravity = 9.81;          // [m/s^2]
 constexpr double kMaxRateStanding = 0.1;   // [rad/s]
 constexpr double kMaxForceStanding = 0.5;  // beside gravity [m/s^2]
@@ -64,11 +65,16 @@ bool ImuDoor::IsReading(const ImuSample& sample) {
   return false;
 }
 
-// At standstill, a sensor that is simulated without noise repeats its readings as well.
+// A sensor that is simulated without noise repeats its readings as well, at standstill or at
+// constant rates.
 bool ImuDoor::IsStuck(const ImuSample& sample) {
-  if (!first_alike_ || !AreAlike(*first_alike_, sample)) first_alike_ = sample;
+  if (!first_alike_ || !AreAlike(*first_alike_, sample)) {
+    first_alike_ = sample;
+    ++changes_;
+  }
   const int64_t begin_ns = first_alike_->t_ns;
-  if (!IsGap(begin_ns, sample.t_ns) || MayStand(sample)) return false;
+  const bool has_noise = changes_ > kManyChanges;
+  if (!has_noise || MayStand(sample) || !IsGap(begin_ns, sample.t_ns)) return false;
   if (statistics_.imu_stuck++ == 0) {
     statistics_.first_imu_stuck =
         Format("the same reading from %.3f s on: check the connection of the IMU, and its driver",
@@ -121,6 +127,7 @@ void ImuDoor::Clear() {
   recent_.clear();
   jump_.Accept();
   first_alike_.reset();
+  changes_ = 0;
   after_gap_.reset();
 }
 

@@ -78,6 +78,7 @@ class ImuDoor {
   std::deque<ImuSample> recent_;  // passed to the gate in the last second
   BackwardJumpDetector jump_;
   std::optional<ImuSample> first_alike_;  // with the same readings as the newest sample
+  int64_t changes_ = 0;                   // of readings
   std::optional<ImuSample> after_gap_;
   ImuStatistics statistics_;  // except those of the gate
 };

@@ -31,6 +31,7 @@ constexpr double kPromising = 0.02;       // likewise, the first step of a cause
 constexpr double kFocalStarts[] = {-0.5, -0.3, -0.15, 0.2, 0.5, 1};
 constexpr double kDeviation = 0.3;          // of all relative errors and angles, before
 constexpr double kGyroBiasDeviation = 0.1;  // [rad/s]
+constexpr double kLeastFactor = 0.4;        // configured focal length over the true one
 
 struct Bounds {
   double min, max;
@@ -199,8 +200,9 @@ RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
   double best_criterion = count * std::log(without.equations.cost) - kLeastEvidence;
   for (const Model& model : Models()) {
     const double decrease = Fitter::StepFrom(without.equations, model.errors).decrease;
-    // A step promises little where errors are so large that they count as outliers.
-    const bool is_linear = none.cause == Cause::kNone;
+    // A step promises little where errors are so large that they count as outliers, or where it is
+    // far to the right focal length.
+    const bool is_linear = none.cause == Cause::kNone && model.cause != Cause::kFocalLength;
     if (is_linear && decrease < kPromising * without.equations.cost) continue;
     const Fitter::Fit fit = fitter.Minimize(model.errors, fitter.StartOf(model.cause, without));
     const double cost = fit.equations.cost;
@@ -210,7 +212,8 @@ RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
     best_criterion = criterion;
     const double amount = fitter.Amount(model.cause, fit.x);
     const Bounds limits = Limits(model.cause);
-    const bool matters = std::abs(amount) >= limits.min && std::abs(amount) <= limits.max;
+    const bool matters = std::abs(amount) >= limits.min && std::abs(amount) <= limits.max &&
+                         1 + amount >= kLeastFactor;
     const bool explains = cost < most && cost < (1 - kMinExplained) * without.equations.cost;
     best = matters && explains ? RotationFit{model.cause, amount} : none;
   }

@@ -25,7 +25,8 @@ class InputCheckTest : public ::testing::Test {
     ImuBursts bursts;
     for (int64_t i = 0; i < 1000; ++i) {
       const double noise = 1e-3 * static_cast<double>(i % 10);
-      const ImuSample sample{stamp_of(i), gyro, {noise, 0, sensor_.gravity_norm}};
+      const ImuSample sample{stamp_of(i), gyro,
+                             Eigen::Vector3d(0, 0, sensor_.gravity_norm).array() + noise};
       check.AddImu(sample);
       bursts.Spread(sample);
       if (i % 10 == 0) check.AddImage(kStart_ns + i * kStep_ns + ToNanoseconds(image_error));

@@ -21,8 +21,10 @@ constexpr double kLeastTurn = 0.03;     // of a pair [rad]
 constexpr double kAgreement = 1.4;      // largest mean cost of a point that fits
 constexpr double kMinExplained = 0.04;  // share of the cost
 // By this the criterion of a cause must be less than that without any: very strong evidence (Kass
-// and Raftery, Bayes factors, 1995). Few points and moving objects give less.
-constexpr double kLeastEvidence = 10;
+// and Raftery, Bayes factors, 1995). The gyroscope's errors, as many as nine, fit moving objects
+// best, so they need more: 12 was seen with propellers in the view, and at least 50 after 15 s with
+// a gyroscope that is 5 % off.
+constexpr double kLeastEvidence = 10, kLeastGyroEvidence = 25;
 // Points per independent one: pairs of 0.3 s may begin every 0.1 s, and errors of a track last.
 constexpr double kOverlap = 4;
 constexpr int kIterations = 6;
@@ -197,7 +199,7 @@ RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
   const double most = kAgreement * points;
   const RotationFit none{without.equations.cost < most ? Cause::kNone : Cause::kUnknown};
   RotationFit best = none;
-  double best_criterion = count * std::log(without.equations.cost) - kLeastEvidence;
+  double best_criterion = count * std::log(without.equations.cost);
   for (const Model& model : Models()) {
     const double decrease = Fitter::StepFrom(without.equations, model.errors).decrease;
     // A step promises little where errors are so large that they count as outliers, or where it is
@@ -206,8 +208,9 @@ RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
     if (is_linear && decrease < kPromising * without.equations.cost) continue;
     const Fitter::Fit fit = fitter.Minimize(model.errors, fitter.StartOf(model.cause, without));
     const double cost = fit.equations.cost;
-    const double criterion =
-        count * std::log(cost) + std::log(count) * static_cast<double>(model.errors.cols());
+    const double criterion = count * std::log(cost) +
+                             std::log(count) * static_cast<double>(model.errors.cols()) +
+                             (model.cause == Cause::kGyro ? kLeastGyroEvidence : kLeastEvidence);
     if (criterion >= best_criterion) continue;
     best_criterion = criterion;
     const double amount = fitter.Amount(model.cause, fit.x);

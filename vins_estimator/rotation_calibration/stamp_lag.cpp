@@ -17,7 +17,6 @@ constexpr int kMinRotations = 12;
 constexpr int kLeastLag = 3;  // smaller ones are RotationFit's [lags]
 constexpr int kApart = 5;     // lags that differ by more are other explanations
 constexpr double kWorse = 3;  // least cost of other lags, as a multiple of that of the best one
-constexpr double kMostMisfit = 2;  // largest mean cost of the best lag
 
 }  // namespace
 
@@ -86,7 +85,7 @@ std::optional<double> StampLag::lag() const {
   const int best =
       static_cast<int>(std::min_element(costs_.begin(), costs_.end()) - costs_.begin());
   const double misfit = costs_[best] / compared_;
-  if (std::abs(best - kHalf) < kLeastLag || misfit > kMostMisfit) return std::nullopt;
+  if (std::abs(best - kHalf) < kLeastLag) return std::nullopt;
   for (int i = 0; i < kLags; ++i) {
     const bool is_other = std::abs(i - best) > kApart;
     if (is_other && costs_[i] < kWorse * std::max(misfit, 1.0) * compared_) return std::nullopt;

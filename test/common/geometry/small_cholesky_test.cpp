@@ -17,7 +17,8 @@ TEST(FactorizeCholesky, IsEigensFactor) {
     const Matrix9d expected = Eigen::LLT<Matrix9d>(matrix).matrixL();
     ASSERT_TRUE(FactorizeCholesky(&matrix));
     const Matrix9d found = matrix.triangularView<Eigen::Lower>();
-    EXPECT_LT((found - expected).norm(), 1e-14 * expected.norm());
+    // Versions of Eigen sum in different orders.
+    EXPECT_LT((found - expected).norm(), 1e-12 * expected.norm());
   }
 }
 

@@ -18,7 +18,6 @@ constexpr double kMinTested = 100;     // samples
 
 constexpr double kNormTolerance = 0.3;  // relative, of a norm near that of gravity
 constexpr double kFarBelow = 0.3;       // largest share of gravity that is far below it
-constexpr double kTurn = 0.1;           // [rad/s]; no sensor at standstill measures as much
 constexpr double kFastTurn = 4.0;  // [rad/s]; agile flights exceed it in a few samples of a hundred
 
 struct Reading {
@@ -40,20 +39,10 @@ bool IsNear(double value, double expected) {
 bool IsAny(const Reading&) { return true; }
 bool HasGyro(const Reading& reading) { return reading.gyro; }
 bool HasAccel(const Reading& reading) { return reading.accel; }
-bool Turns(const Reading& reading) { return reading.gyro && reading.rate > kTurn; }
+bool Turns(const Reading& reading) { return reading.gyro && reading.rate > kMostStandingRate; }
 // In motion, and not a repeated reading.
 bool HasNewGyro(const Reading& reading) { return Turns(reading) && !reading.gyro_same.all(); }
 bool HasNewAccel(const Reading& reading) { return Turns(reading) && !reading.accel_same.all(); }
-
-template <int axis>
-bool IsGyroStuck(const Reading& reading) {
-  return reading.gyro_same[axis];
-}
-
-template <int axis>
-bool IsAccelStuck(const Reading& reading) {
-  return reading.accel_same[axis];
-}
 
 // A test fails if more than a share of the samples to which it applies are wrong.
 struct Test {
@@ -98,12 +87,12 @@ constexpr Test kTests[] = {
     {HasGyro, [](const Reading& r) { return r.rate > kFastTurn; }, 0.3,
      "angular velocity exceeds 4 rad/s in many samples: is TOPIC in deg/s? Multiply it by pi/180, "
      "to rad/s"},
-    {HasNewGyro, IsGyroStuck<0>, 0.999, kGyroStuck},
-    {HasNewGyro, IsGyroStuck<1>, 0.999, kGyroStuck},
-    {HasNewGyro, IsGyroStuck<2>, 0.999, kGyroStuck},
-    {HasNewAccel, IsAccelStuck<0>, 0.999, kAccelStuck},
-    {HasNewAccel, IsAccelStuck<1>, 0.999, kAccelStuck},
-    {HasNewAccel, IsAccelStuck<2>, 0.999, kAccelStuck},
+    {HasNewGyro, [](const Reading& r) { return r.gyro_same[0]; }, 0.999, kGyroStuck},
+    {HasNewGyro, [](const Reading& r) { return r.gyro_same[1]; }, 0.999, kGyroStuck},
+    {HasNewGyro, [](const Reading& r) { return r.gyro_same[2]; }, 0.999, kGyroStuck},
+    {HasNewAccel, [](const Reading& r) { return r.accel_same[0]; }, 0.999, kAccelStuck},
+    {HasNewAccel, [](const Reading& r) { return r.accel_same[1]; }, 0.999, kAccelStuck},
+    {HasNewAccel, [](const Reading& r) { return r.accel_same[2]; }, 0.999, kAccelStuck},
 };
 static_assert(std::size(kTests) == ImuContent::kTestCount);
 

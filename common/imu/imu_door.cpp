@@ -17,11 +17,10 @@ constexpr int64_t kRecent_ns = 1'000'000'000;
 
 constexpr int64_t kManyChanges = 100;      // of a sensor that has noise
 constexpr double kGravity = 9.81;          // [m/s^2]
-constexpr double kMaxRateStanding = 0.1;   // [rad/s]
 constexpr double kMaxForceStanding = 0.5;  // beside gravity [m/s^2]
 
 bool MayStand(const ImuSample& sample) {
-  return sample.gyro.norm() < kMaxRateStanding &&
+  return sample.gyro.norm() < kMostStandingRate &&
          std::abs(sample.accel.norm() - kGravity) < kMaxForceStanding;
 }
 

@@ -41,8 +41,8 @@ struct AdmittedImu {
 // unusable samples, notices that the clock was set, replaces outliers and corrects the readings
 // (ImuGate). The samples that come out increase in time.
 //
-// A reading that a sensor in motion repeats for longer than kMaxImuInterval is no reading: its
-// driver has lost the sensor. The repetitions leave a gap.
+// A reading that a sensor in motion, whose readings have changed so far, repeats for longer than
+// kMaxImuInterval is no reading: its driver has lost the sensor. The repetitions leave a gap.
 //
 // The clock was set if timestamps go back permanently (a bag played again), or jump ahead by more
 // than a minute. Samples that are sent twice within a second do not count as such. A sample after a

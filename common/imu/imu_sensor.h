@@ -16,6 +16,9 @@ struct ImuRange {
 // Exceeds the readings of IMUs on vehicles and handheld devices.
 constexpr ImuRange kAnyImuRange = {100.0, 500.0};
 
+// More than a gyroscope at standstill measures, with any usual bias [rad/s].
+constexpr double kMostStandingRate = 0.1;
+
 // Returns whether all readings are finite and within the range.
 inline bool IsInRange(const ImuSample& sample, const ImuRange& range = kAnyImuRange) {
   return sample.gyro.allFinite() && sample.accel.allFinite() &&

@@ -201,11 +201,13 @@ RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
   RotationFit best = none;
   double best_criterion = count * std::log(without.equations.cost);
   for (const Model& model : Models()) {
-    const double decrease = Fitter::StepFrom(without.equations, model.errors).decrease;
     // A step promises little where errors are so large that they count as outliers, or where it is
     // far to the right focal length.
-    const bool is_linear = none.cause == Cause::kNone && model.cause != Cause::kFocalLength;
-    if (is_linear && decrease < kPromising * without.equations.cost) continue;
+    const bool step_tells = none.cause == Cause::kNone && model.cause != Cause::kFocalLength;
+    const double promising = kPromising * without.equations.cost;
+    if (step_tells && Fitter::StepFrom(without.equations, model.errors).decrease < promising) {
+      continue;
+    }
     const Fitter::Fit fit = fitter.Minimize(model.errors, fitter.StartOf(model.cause, without));
     const double cost = fit.equations.cost;
     const double criterion = count * std::log(cost) +
